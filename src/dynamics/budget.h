@@ -1,5 +1,5 @@
-/* Forces and moments on the bodies by where they come from, noted beside an evaluation for those
- * who ask. */
+/* Forces and moments on the bodies by source, recorded in an evaluation when a budget is
+ * requested. */
 #ifndef CZ_DYNAMICS_BUDGET_H
 #define CZ_DYNAMICS_BUDGET_H
 
@@ -14,7 +14,7 @@ typedef struct CzBudgetRows {
     double hinge_moment[2][CZ_LANE_BLOCK];
     double face_x[CZ_LANE_BLOCK]; /* force of the faces as it acts on side B [N] */
     double face_z[CZ_LANE_BLOCK];
-    double face_arm_x[2][CZ_LANE_BLOCK]; /* its point of action from the end mass [m] */
+    double face_arm_x[2][CZ_LANE_BLOCK]; /* its point of action, measured from the end mass [m] */
     double face_arm_z[2][CZ_LANE_BLOCK];
     double end_lift[2][CZ_LANE_BLOCK]; /* along the crush zone, rear and front */
     double end_moment[2][CZ_LANE_BLOCK];

@@ -1,4 +1,4 @@
-/* Memory of a run's moving part, and the choice of the kernel. */
+/* Creates the state and memory of a run, and chooses the kernel. */
 #include "dynamics/dynamics.h"
 
 #include <math.h>
@@ -36,7 +36,7 @@ static int runs_v4(void) {
 /* Copies of the kernel, the fastest first. */
 static const struct {
     const CzKernel *kernel;
-    int (*runs)(void); /* whether this processor can */
+    int (*runs)(void); /* whether this processor supports it */
 } kernels[] = {
 #ifdef CZ_HAS_KERNEL_V4
     {&cz_kernel_v4, runs_v4},
@@ -61,7 +61,7 @@ static void start_extremes(CzExtremes *extreme) {
             CZ_NOT_YET;
 }
 
-/* Each list has every row of its struct, and all are those of the plane. */
+/* Each list names every row of its struct. All dimensions are those of plane motion. */
 enum {
     PLANE = 1,
 #define CZ_LEDGER_ENTRY(row, class, dimension, doc) +dimension
@@ -77,13 +77,13 @@ enum {
 _Static_assert((int)N_LEDGER_LISTED == (int)CZ_N_LEDGER, "ledger.def lists CzPower");
 _Static_assert((int)N_DOF_LISTED == (int)CZ_N_DOF, "dof.def lists CzState");
 
-/* One over a row of parameters, 0 where the parameter is 0. */
+/* Reciprocals of a row of parameters, 0 where the parameter is 0. */
 static void invert(const double *parameter, double *inverse) {
     for (int i = 0; i < CZ_LANE_BLOCK; ++i)
         inverse[i] = parameter[i] > 0.0 ? 1.0 / parameter[i] : 0.0;
 }
 
-/* One over a stiffness, which laws take from 1 N/m on. */
+/* Reciprocals of a stiffness, which is at least 1 N/m in the laws. */
 static void invert_stiffness(const double *stiffness, double *compliance) {
     for (int i = 0; i < CZ_LANE_BLOCK; ++i)
         compliance[i] = 1.0 / fmax(stiffness[i], 1.0);
@@ -123,7 +123,7 @@ static void derive_constants(const CzParameters *parameter, CzConstants *constan
                 parameter->wheel.hertz[i], parameter->wheel.indentation[axle][i]);
 }
 
-/* What follows from the car ahead of each lane. */
+/* Constants that depend on the car ahead of each lane. */
 static void derive_ahead(const CzLanes *lanes, CzConstants *constant, size_t base) {
     for (size_t i = 0; i < CZ_LANE_BLOCK; ++i)
         constant->slaved_ends_ahead[i] = *cz_lane_parameter(lanes, CZ_PARAMETER(slaved_ends),
@@ -145,7 +145,7 @@ static int falls_below(const double *row, double value) {
     return 0;
 }
 
-/* Notes whether a curve falls in some lane. */
+/* Records whether a curve has a falling part in some lane. */
 static void note_falling(CzBlockCurve *curve) {
     CzRow slope = {0.0};
     curve->falls = 0;
@@ -187,7 +187,7 @@ static int copy_curves(CzBlockCurves *to, const CzLanes *lanes, size_t base, CzA
     return 1;
 }
 
-/* No body is turned at t = 0, and rigid ones never are. */
+/* No body is rotated at t = 0; bodies that cannot pitch keep these values. */
 static void start_turned(CzBlock *block) {
     for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
         block->turned.body.cosine[i] = 1.0;

@@ -1,5 +1,4 @@
-/* The moving part of a run: state, memory, work and extremes of all lanes, and the force
- * evaluation.
+/* Dynamics of a run: state, memory, work and extremes of all lanes, and the force evaluation.
  *
  * Lanes are in blocks of CZ_LANE_BLOCK, and a block holds all of its rows. One step is: the
  * integrator advances position and velocity, the evaluation turns them into accelerations and the
@@ -20,7 +19,8 @@
 #include "dynamics/track_elements.h"
 #include "model/lanes.h"
 
-/* Numbers derived from the parameters once: divisions and roots that would cost as much as a law.
+/* Constants derived from the parameters once, because their divisions and roots cost as much as a
+ * law.
  */
 typedef struct CzConstants {
     CzRow static_load[4];   /* normal force of the wheelset at rest, by the law itself [N] */
@@ -32,7 +32,7 @@ typedef struct CzConstants {
     CzRow rest_angle_vertical;  /* of the line between the pivots of coupled couplers; 0 for others
                                    [rad] */
     CzRow buffer_compliance[2]; /* 1 / stiffness of the buffer between its curves [m/N] */
-    CzRow side_compliance[2];   /* the same of the side buffers */
+    CzRow side_compliance[2];   /* likewise for the side buffers */
     CzRow end_compliance[2];    /* 1 / first unloading stiffness of the crush zone [m/N] */
     CzRow end_second_compliance[2]; /* 1 / its second one */
     CzRow fold_compliance[2];       /* 1 / pitch guidance stiffness [rad/(N m)] */
@@ -54,7 +54,7 @@ typedef struct CzMotion {
     CzTurned turned;
 } CzMotion;
 
-/* What an interface sees of the car ahead, and what it gives it. */
+/* Motion of the car ahead as an interface reads it, and the forces of the interface on that car. */
 typedef struct CzSeen {
     CzMotion body, end; /* its rear end */
 } CzSeen;
@@ -70,21 +70,21 @@ typedef struct CzImpulse {
 
 /* The rail under a wheelset; all 0 on a rigid track. */
 typedef struct CzRailRows {
-    CzRow z;                 /* deflection of its modes, upwards [m] */
-    CzRow past;              /* the same half a step ago at the same place, where the work of the
-                                wheels follows from it: not on modes [m] */
+    CzRow z;    /* deflection of its modes, upwards [m] */
+    CzRow past; /* the same half a step ago at the same place, for the work of the wheels; unused on
+                   the modal track [m] */
     CzRow slope;             /* change of the deflection along the track [-] */
-    CzRow flexibility;       /* what it deflects at once [m/N] */
-    CzRow flexibility_slope; /* change of that along the track [1/N] */
+    CzRow flexibility;       /* immediate deflection per force [m/N] */
+    CzRow flexibility_slope; /* its change along the track [1/N] */
 } CzRailRows;
 
-#define CZ_FALLING (-1.0) /* slope below which a curve falls, others are level [N/m] (ours) */
+#define CZ_FALLING (-1.0) /* below this slope a curve falls, else it is level [N/m] (ours) */
 
 typedef struct CzBreakpoint {
     CzRow at, change; /* stroke [m], change of the slope [N/m] */
 } CzBreakpoint;
 
-/* A curve in the lanes of a block, without the breakpoints that change no lane. */
+/* A curve in the lanes of a block, without breakpoints that change the slope in no lane. */
 typedef struct CzBlockCurve {
     _Alignas(64) CzRow start; /* value at 0 [N] */
     CzRow usable;             /* stroke at which it bottoms out [m] */
@@ -101,7 +101,7 @@ typedef struct CzBlockCurves {
 } CzBlockCurves;
 _Static_assert(sizeof(CzBlockCurves) == CZ_N_CURVE * sizeof(CzBlockCurve), "one for each name");
 
-/* Backbone force of a crush zone at its largest shortening, kept while that stays. */
+/* Backbone force of a crush zone at its largest shortening, kept while that does not grow. */
 typedef struct CzPeak {
     CzRow at;    /* NaN at the start [m] */
     CzRow force; /* [N] */
@@ -121,27 +121,27 @@ typedef struct CzBlock {
         CzTurned body, end[2], bogie[2];
     } turned;
     CzSeen ahead;           /* the car ahead */
-    CzPushed pushed;        /* what the interface gives it */
-    CzPlane from_behind;    /* what the interface behind gives the body */
+    CzPushed pushed;        /* forces of the interface on it */
+    CzPlane from_behind;    /* forces of the interface behind on the body */
     CzRailRows rail[4];     /* under each wheelset */
     CzPower work;           /* committed [J] */
     CzExtremes extreme;     /* committed */
     CzParameters parameter; /* the lanes' own */
     CzConstants constant;   /* numbers derived from the parameters once */
     CzRow rail_rest_energy; /* of the track under each car at t = 0 [J] */
-    CzMemory memories[2];   /* for `memory` and `next_memory` to swap */
-    CzPower powers[2];      /* for `power` and `last_power` to swap */
+    CzMemory memories[2];   /* `memory` and `next_memory` point to them in turn */
+    CzPower powers[2];      /* `power` and `last_power` point to them in turn */
     CzBlockCurves curve;
     int has_shear_off[2];     /* some lane's coupler of side A, B shears off */
     int has_massless[2];      /* some lane's side A, B has a crush zone without end mass */
     CzPeak end_peak[2];       /* of the rear and front crush zone */
     CzRow coupler_reach;      /* closure up to which resting couplers do nothing [m] */
-    CzRow face_reach;         /* the same of the faces */
+    CzRow face_reach;         /* likewise for the faces */
     int couplers_rest;        /* the last evaluation of the couplers changed nothing */
-    int faces_rest;           /* so did that of the faces */
-    int leaves_nothing_out;   /* evaluates couplers and faces even where that changes nothing: tests
-                                 compare with it */
-    CzBudgetRows *budget_sum; /* of the records below: sum over all steps, times their length */
+    int faces_rest;           /* likewise for the faces */
+    int leaves_nothing_out;   /* evaluates couplers and faces even where that changes nothing, for
+                                 comparison in tests */
+    CzBudgetRows *budget_sum; /* sum of the records below over all steps, times the step */
     CzBudgetRows *budget;     /* records of the sources of forces; NULL when not requested */
     CzMemory *memory;         /* committed */
     CzMemory *next_memory;    /* of the last evaluation */
@@ -151,11 +151,11 @@ typedef struct CzBlock {
 
 typedef struct CzDynamics {
     const CzLanes *lanes;    /* borrowed */
-    size_t n_state, n_power; /* numbers of a block's state and powers that change: those of running
-                                gear follow the others and are left out where no car has any */
+    size_t n_state, n_power; /* numbers of a block's state and powers in use: those of running gear
+                                come last and are left out where no car has any */
     int n_block;
     CzBlock *block; /* (n_block), and one more of zeros that represents all lanes beyond them */
-    /* What lies under each lane; at most one of them is there. */
+    /* Track under each lane; at most one of these is not NULL. */
     CzTrackMotion *track;
     CzElements *elements;
     CzReceptanceMotion *receptance;
@@ -172,7 +172,7 @@ typedef void CzCommit(CzDynamics *dynamics, double step, double time);
  */
 typedef void CzAdvance(CzDynamics *dynamics, double step, int first);
 
-/* All three in turn: the same bits in one pass through the memory. */
+/* All three in turn, in one pass through the memory; the results are the same to the last bit. */
 typedef void CzStep(CzDynamics *dynamics, double step, int first, double time);
 
 /* One compiled copy of the kernel. */
@@ -199,9 +199,9 @@ bool cz_dynamics_lay_track(CzDynamics *dynamics, const CzTrackModes *modes, CzTr
 /* Kinetic and elastic energy of the track under each car of a block, half a step ago [J]. */
 void cz_dynamics_track_energy(const CzDynamics *dynamics, int block, CzRow energy);
 
-/* For a solver that carries the track's states itself (track.h), on `modal` or `receptance` laid
- * for a step of 0: numbers of the state under a car, 0 without wheels or elastic rails; the states;
- * and after an evaluation their rates, and the track's part of the powers.
+/* For a solver that integrates the track's states itself (track.h), on a `modal` or `receptance`
+ * track laid for a step of 0: the number of states under a car, 0 without wheels or elastic rails;
+ * the states; after an evaluation their rates, and the track's part of the powers.
  */
 size_t cz_dynamics_track_n_state(const CzDynamics *dynamics, size_t lane);
 void cz_dynamics_track_get_state(const CzDynamics *dynamics, size_t lane, double *state);

@@ -19,24 +19,24 @@
 #include "laws/suspension.h"
 #include "laws/wheel_rail.h"
 
-#define TOLERANCE 1e-11 /* of a residual, over the weight: rounding leaves some 1e-14 (ours) */
-#define FIRST_SAG 0.02  /* of every spring at the first guess, so that all bear [m] (ours) */
-#define FIRST_DENT 1e-3 /* of every wheel [m] (ours) */
+#define TOLERANCE 1e-11 /* largest residual over the weight; rounding leaves about 1e-14 (ours) */
+#define FIRST_SAG 0.02  /* of every spring in the first guess, so that all carry load [m] (ours) */
+#define FIRST_DENT 1e-3 /* indentation of every wheel in the first guess [m] (ours) */
 
 enum { BODY_Z, BODY_PITCH, BOGIE_Z, BOGIE_PITCH = BOGIE_Z + 2, WHEEL_Z = BOGIE_PITCH + 2 };
 enum { LOAD = WHEEL_Z + 4, N_UNKNOWN = LOAD + 4 };
 
 typedef struct Car {
-    CzEquations equations; /* first: the solver hands it back */
+    CzEquations equations; /* must be first: the solver passes its address back */
     double bogie_x, axle_x;
     double end_x[2], end_mass[2], body_mass, bogie_mass, wheelset_mass;
     CzSuspensionLaw secondary, primary;
     double hertz;
     double influence[4][4]; /* rail's deflection upwards at i per force downwards at j [m/N] */
-    double flexibility[4];  /* beside it, under the wheel itself [m/N] */
+    double flexibility[4];  /* in addition, under the wheel itself [m/N] */
 } Car;
 
-/* A spring from its unloaded length on, without the stops that it does not reach at rest. */
+/* A spring measured from its unloaded length; at rest it does not reach its stops. */
 static CzSuspensionLaw unloaded_spring(double stiffness, bool pulls) {
     return (CzSuspensionLaw){.stiffness = stiffness,
                              .preload = pulls ? CZ_NEVER : 0.0,
@@ -62,7 +62,7 @@ static Car car_of(const CzLanes *lanes, size_t lane) {
                  .hertz = rows->wheel.hertz[i]};
 }
 
-/* What the rail deflects under each wheel per force under each. */
+/* Deflection of the rail under each wheel per force at each wheel. */
 static bool find_influence(Car *car, CzTrackMotion *track, CzArena *arena) {
     double place[4];
     for (int axle = 0; axle < 4; axle++)
@@ -130,7 +130,7 @@ static void residuals(CzEquations *equations, const double *q, double *residual)
     }
 }
 
-/* Every spring and wheel bears: an estimate that knows nothing of the loads' distribution. */
+/* First guess, in which every spring and wheel carries load, however the weight is distributed. */
 static void guess(double weight, double *q) {
     for (int i = 0; i < N_UNKNOWN; i++)
         q[i] = 0.0;
@@ -161,8 +161,8 @@ static CzEquilibrium read(Car *car, const double *q, double weight) {
     return found;
 }
 
-/* Says which spring or contact is furthest from its rest. */
-static CzStatus tell_unrest(const Car *car, const double *q, double weight, CzError *error) {
+/* Reports the spring or contact that is furthest from equilibrium. */
+static CzStatus report_unbalanced(const Car *car, const double *q, double weight, CzError *error) {
     static const char *const side[] = {"rear", "front"};
     char what[80];
     double residual[N_UNKNOWN];
@@ -209,7 +209,7 @@ CzStatus cz_equilibrium_find(const CzLanes *lanes, size_t lane, CzTrackMotion *t
     guess(weight, q);
     const CzStatus status = cz_equations_solve(&car.equations, TOLERANCE, q, error);
     if (status == CZ_STATUS_RUN_FAILED)
-        return tell_unrest(&car, q, weight, error);
+        return report_unbalanced(&car, q, weight, error);
     if (status != CZ_OK)
         return status;
     *equilibrium = read(&car, q, weight);

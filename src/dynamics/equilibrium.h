@@ -8,7 +8,7 @@
 #include "dynamics/track.h"
 #include "model/lanes.h"
 
-/* A car at rest, all measured from springs without load and wheels that just touch. */
+/* A car at rest. Displacements are measured from unloaded springs and wheels that just touch. */
 typedef struct CzEquilibrium {
     double body_z, body_pitch; /* upwards [m]; nose-up [rad] */
     double secondary[2];       /* compression, rear and front [m] */

@@ -5,38 +5,38 @@
 
 #include "dynamics/dynamics.h"
 
-/* Of the interface whose rear car is in a lane; side 0 is its front end, 1 the rear end of the car
- * ahead. */
+/* Equipment of the interface whose rear car is in a lane; side 0 is its front end, 1 the rear end
+ * of the car ahead. */
 typedef struct CzInterfaceEquipment {
-    bool has_couplers;     /* that meet, or one of which meets what cannot move */
+    bool has_couplers;     /* two that meet, or one that meets a fixed body */
     bool is_coupled;       /* they carry tension, or draw gears do */
     bool couplers_on_ends; /* one of them at least is fixed to an end mass */
     bool has_side_buffers; /* likewise */
     bool has_superstructures, has_draw_gears;
-    bool can_climb;  /* its faces overlap by so much and no more */
+    bool can_climb;  /* the overlap of its faces is limited */
     double friction; /* of the faces [-] */
     struct {
-        bool has_coupler, has_anti_climber, has_side_buffers; /* of its own */
+        bool has_coupler, has_anti_climber, has_side_buffers; /* on this side */
         bool shears_off;
         bool has_massless_end;
-        double retraction_space; /* with the softening length of the shear-off; CZ_NEVER without
+        double retraction_space; /* includes the softening length of the shear-off; CZ_NEVER if none
                                     [m] */
-        double swing_stop;       /* infinite without [rad] */
-        double strut_length; /* by which the coupler cannot shorten; CZ_NEVER where its line is that
-                                of the track [m] */
+        double swing_stop;       /* infinite if none [rad] */
+        double strut_length; /* by which the coupler cannot shorten; CZ_NEVER where it always acts
+                                along the track [m] */
     } side[2];
 } CzInterfaceEquipment;
 
 CzInterfaceEquipment cz_interface_equipment(const CzLanes *lanes, size_t lane);
 
-/* Of the car in a lane. */
+/* Equipment of the car in a lane. */
 typedef struct CzCarEquipment {
     bool has_slaved_ends;        /* they move with the body */
     bool is_held;                /* by brakes or friction jaws */
     double slowing;              /* largest deceleration by brakes and rolling resistance; infinite
                                     with friction jaws [m/s2] */
     double lift_stop, bump_stop; /* extension and compression of the secondary suspension [m] */
-    double slide_length;         /* CZ_NEVER without [m] */
+    double slide_length;         /* CZ_NEVER if none [m] */
     double inverse_mass;         /* of the body; 0 where it cannot move [1/kg] */
 } CzCarEquipment;
 

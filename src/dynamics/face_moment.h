@@ -1,4 +1,5 @@
-/* What the faces of an interface do to the bodies behind them, of what was noted for a budget. */
+/* Force and moment of an interface's faces on the bodies behind them, from the records of a
+ * budget. */
 #ifndef CZ_DYNAMICS_FACE_MOMENT_H
 #define CZ_DYNAMICS_FACE_MOMENT_H
 
@@ -9,8 +10,8 @@ typedef struct CzFacePush {
 } CzFacePush;
 
 /* `lane` is the interface's, `own` that of the car whose front (side 0) or rear end (1) meets it.
- * The faces know their point of action from the end mass, and how that is on its body is known
- * in the lane of the body alone, so that the kernel cannot note it. */
+ * The point of action is recorded relative to the end mass. Its place on the body depends on the
+ * lane of that body, so that the kernel cannot record it. */
 CzFacePush cz_face_push(const CzDynamics *dynamics, size_t lane, size_t own, int side);
 
 #endif

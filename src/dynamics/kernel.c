@@ -2,9 +2,9 @@
  *
  * An evaluation is a sequence of passes over blocks of lanes: rotations, couplers, anti-climbers,
  * side buffers, crush zones, running gear, and the division by the masses. Each pass gathers rows,
- * calls laws and scatters forces; between the passes there are only rows. No allocation, no library
- * call, no branch on data: every lane does the same arithmetic, and a lane's bits do not depend on
- * what the others hold or on how many a register takes.
+ * calls laws and scatters forces; the passes exchange rows only. No allocation, no library call, no
+ * branch on data: every lane does the same arithmetic, and a lane's bits do not depend on the
+ * values of the others or on the width of a register.
  */
 #include "dynamics/dynamics.h"
 
@@ -32,7 +32,7 @@
 
 extern const CzKernel KERNEL_NAME(CZ_ISA);
 
-/* Sets to zero what the passes add to. */
+/* Sets to zero the rows to which the passes add. */
 static void clear(const CzDynamics *dynamics, CzBlock *d) {
     clear_rows(&d->force, dynamics->n_state * sizeof(double));
     clear_rows(d->power, dynamics->n_power * sizeof(double));
@@ -53,8 +53,8 @@ static void divide(const double *restrict force, const double *restrict inverse,
     }
 }
 
-/* Body and end masses along x: ends without mass move with the body and hand their force to it.
- * What acts on a vehicle that cannot move, and what acts at the wheels, is the external force. */
+/* Body and end masses along x: ends without mass move with the body and transfer their force to it.
+ * The external force is that on a fixed vehicle and that at the wheels. */
 static void divide_along(CzBlock *d) {
     const CzParameters *restrict rows = &d->parameter;
     const CzState *restrict force = &d->force;
@@ -76,7 +76,7 @@ static void divide_along(CzBlock *d) {
     }
 }
 
-/* Bodies up and down: those whose ends are slaved have their one co-ordinate along the track. */
+/* Vertical acceleration of bodies; bodies with slaved ends move along the track only. */
 static void divide_up(CzBlock *d) {
     const double *restrict slaved = d->parameter.slaved_ends, *restrict inverse =
                                                                   d->parameter.inverse.body.mass;
@@ -87,7 +87,7 @@ static void divide_up(CzBlock *d) {
     }
 }
 
-/* What only a car with running gear can do. */
+/* Accelerations that only a car with running gear has. */
 static void divide_full(CzBlock *d) {
     const CzState *force = &d->force;
     CzState *a = &d->acceleration;
@@ -109,7 +109,7 @@ static void divide_full(CzBlock *d) {
     }
 }
 
-/* Interfaces of a block. */
+/* Evaluates the interfaces of a block. */
 static void evaluate_interfaces(const CzDynamics *dynamics, int index, double step) {
     const CzLanes *lanes = dynamics->lanes;
     CzBlock *d = &dynamics->block[index];
@@ -124,7 +124,7 @@ static void evaluate_interfaces(const CzDynamics *dynamics, int index, double st
         draw_gears(d);
 }
 
-/* Cars of a block. */
+/* Evaluates the cars of a block. */
 static void evaluate_cars(const CzDynamics *dynamics, int index, double step) {
     CzBlock *d = &dynamics->block[index];
     for (int end = 0; end < 2; ++end)
@@ -150,7 +150,7 @@ static void evaluate_cars(const CzDynamics *dynamics, int index, double step) {
     }
 }
 
-/* Everything of a block before the interfaces. */
+/* Evaluations of a block before its interfaces. */
 static void begin_block(const CzDynamics *dynamics, CzBlock *d) {
     clear(dynamics, d);
     if (d->budget != NULL)
@@ -159,7 +159,7 @@ static void begin_block(const CzDynamics *dynamics, CzBlock *d) {
         rotations(d);
 }
 
-/* Everything of a block after the interfaces. */
+/* Evaluations of a block after its interfaces. */
 static void end_block(const CzDynamics *dynamics, int index, double step) {
     CzBlock *d = &dynamics->block[index];
     take_over(dynamics, index);
@@ -208,7 +208,7 @@ static void advance(CzDynamics *dynamics, double step, int first) {
         advance_block(dynamics, i, step, first);
 }
 
-/* Advance, evaluate and commit while a block is at hand. */
+/* Advances, evaluates and commits each block while it is in the cache. */
 static void whole_step(CzDynamics *dynamics, double step, int first, double time) {
     for (int i = 0; i < dynamics->n_block; ++i) {
         advance_block(dynamics, i, step, first);

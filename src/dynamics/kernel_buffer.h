@@ -16,7 +16,7 @@ typedef struct {
 
 /* A chain with buffers as its springs. */
 typedef struct {
-    Chain chain; /* first: the solution hands it back */
+    Chain chain; /* must be first: the solution passes its address back */
     Buffer buffer[2];
 } BufferChain;
 
@@ -31,7 +31,7 @@ static inline CzBufferLaw buffer_law(const CzBufferRows *rows, const CzBlockCurv
                          curve->usable[i]};
 }
 
-/* The law of a buffer in a lane at a stroke, where the first linearisation has taken its offset. */
+/* Force of a buffer at a stroke in a lane, with the offset found by the first linearisation. */
 static double buffer_force(const Chain *chain, int side, size_t i, double stroke) {
     const Buffer *buffer = &((const BufferChain *)chain)->buffer[side];
     const CzBufferLaw law = buffer_law(buffer->rows, buffer->curve, i);
@@ -43,7 +43,7 @@ static double buffer_force(const Chain *chain, int side, size_t i, double stroke
     return response.force;
 }
 
-/* Linearises a buffer. The hysteresis starts from where the committed stroke has taken it. */
+/* Linearises a buffer. The hysteresis starts from its state at the committed stroke. */
 static double linearise_buffer(Chain *chain, int side, int again) {
     const Buffer *buffer = &((const BufferChain *)chain)->buffer[side];
     const double *restrict compliance = buffer->compliance;
@@ -74,14 +74,14 @@ static double linearise_buffer(Chain *chain, int side, int again) {
 
 static const SpringLaw buffers = {linearise_buffer, buffer_force, NULL};
 
-/* Lists the buffer of a side; the energies of the side are listed beside it. */
+/* Adds the buffer of a side to the chain; the caller adds the energies of the side. */
 static void list_buffer(BufferChain *of, int side, Buffer buffer) {
     of->buffer[side] = buffer;
     of->chain.spring[side].stroke = buffer.memory->stroke;
     of->chain.spring[side].next = buffer.next->stroke;
 }
 
-/* Rates of the buffers over the step, for the next one. */
+/* Stores the rates of the buffers over this step for the next one. */
 static void keep_rates(const BufferChain *of) {
     const double per_step = 1.0 / of->chain.step;
     for (int side = 0; side < 2; ++side) {

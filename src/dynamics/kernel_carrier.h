@@ -1,8 +1,8 @@
 /* How bodies move and how forces act on them, in the plane. Part of kernel.c only.
  *
- * Elements receive carriers. A point of a carrier has an arm from its centre of gravity and a
- * velocity; a force put at that point has that arm. Strokes and rates made of these are each
- * other's integrals at any pitch, and power and moment balance to rounding.
+ * Elements act between carriers. A point of a carrier has an arm from the centre of gravity and a
+ * velocity; a force applied at that point has the same arm. So every stroke is the integral of its
+ * rate at any pitch, and power and moment balance to rounding.
  */
 #ifndef CZ_DYNAMICS_KERNEL_CARRIER_H
 #define CZ_DYNAMICS_KERNEL_CARRIER_H
@@ -44,7 +44,7 @@ static inline CzPoint cz_point_of(CzCarrier carrier, size_t i, double x, double 
     return cz_point_at(carrier, i, x * cosine - z * sine, x * sine + z * cosine);
 }
 
-/* Puts a force at a point of a body. */
+/* Applies a force at a point of a body. */
 static inline void cz_put_force(CzPlane *on, size_t i, CzPoint at, CzPush push) {
     on->x[i] += push.x;
     on->z[i] += push.z;
@@ -69,12 +69,12 @@ static inline CzPush cz_push_at_centre(CzPoint at, CzPush push) {
     return (CzPush){push.x, push.z, at.arm_x * push.z - at.arm_z * push.x + push.pitch};
 }
 
-/* Puts a moment on a body or a wheelset. */
+/* Applies a moment to a body or a wheelset. */
 static inline void cz_put_moment(double *restrict pitch, size_t i, double moment) {
     pitch[i] += moment;
 }
 
-/* Two points that face each other: the way from A to B, and both as points of their carriers. */
+/* Two points that face each other: the vector from A to B, and both as points of their carriers. */
 typedef struct {
     double x, z; /* [m] */
     CzPoint a, b;
@@ -104,8 +104,8 @@ typedef struct {
     double rate_along, rate_up; /* [m/s] */
 } CzInFrame;
 
-/* `x` and `z` lead from the carrier's centre of gravity to the point, `rate_x` and `rate_z` are the
- * point's velocity less that of the centre. */
+/* The arm is from the carrier's centre of gravity to the point, the velocity relative to that of
+ * the centre. */
 static inline CzInFrame cz_in_frame(CzCarrier frame, size_t i, CzPoint point) {
     const double c = frame.turned->cosine[i], s = frame.turned->sine[i];
     const double turn = frame.rate->pitch[i];
@@ -117,8 +117,9 @@ static inline CzInFrame cz_in_frame(CzCarrier frame, size_t i, CzPoint point) {
     return at;
 }
 
-/* Puts a force on a carrier at a point in its frame, and returns that on the other body: `pull`
- * along the carrier's axis, forward on the other, `lifted` across it, downward on the other. */
+/* Applies a force to a carrier at a point in its frame, and returns the force on the other body:
+ * `pull` along the carrier's axis, forward on the other, `lifted` across it, downward on the
+ * other. */
 static inline CzPush cz_put_in_frame(CzPlane *on, CzCarrier frame, size_t i, CzInFrame at,
                                      double pull, double lifted) {
     const double c = frame.turned->cosine[i], s = frame.turned->sine[i];
@@ -129,8 +130,8 @@ static inline CzPush cz_put_in_frame(CzPlane *on, CzCarrier frame, size_t i, CzI
     return other;
 }
 
-/* Cosine and sine of an angle: exact at any, so that strokes and rates stay each other's integrals
- * however far a body turns. */
+/* Cosine and sine of an angle: exact at any angle, so that strokes remain the integrals of their
+ * rates however far a body rotates. */
 static inline void rotate(const double *restrict pitch, CzTurned *restrict turned) {
     CZ_LANES (i) {
         const CzComplex both = cz_turned(pitch[i] * (0.5 / CZ_PI));
@@ -172,8 +173,8 @@ static inline CzCarrier end_at(const CzBlock *d, int side) {
     return side == 0 ? own_end(d, 1) : carrier_of(&d->ahead.end);
 }
 
-/* Forces on them. What an interface pushes on the car ahead has rows of its own, which that car
- * takes over once all interfaces are done. */
+/* Forces on them. The forces of an interface on the car ahead have separate rows, which are added
+ * to that car once all interfaces are evaluated. */
 static inline CzPlane *force_on_body(CzBlock *d, int side) {
     return side == 0 ? &d->force.body : &d->pushed.body;
 }

@@ -1,15 +1,15 @@
 /* Series chains: one force passes through all members, their shortenings add up to the closure.
- * Part of kernel.c only. This part: the members linearised, and the force that balances them;
- * kernel_chain_search.h finds the force from the laws themselves in one lane, kernel_chain_solve.h
- * is the solution of a step.
+ * Part of kernel.c only. This file linearises the members and finds the force that balances them;
+ * kernel_chain_search.h finds the force in one lane from the laws themselves; kernel_chain_solve.h
+ * solves a step.
  *
  *   sum over springs of (x + (F - F_x) c(F))
  *       + sum over plastic members of (s + crush(F)) + C F = closure
  *
  * The left side grows with F and is piecewise linear, so Newton's method with a bracket finds F in
- * as many steps as breakpoints are passed. F never falls below what the chain can pull (0 where
- * nothing couples). Lanes that have arrived are left alone, so that a lane's answer does not depend
- * on its neighbours.
+ * as many steps as breakpoints are passed. F never falls below the tension that the chain can carry
+ * (0 where it is not coupled). Lanes that have converged are not changed any more, so that the
+ * result of a lane does not depend on its neighbours.
  */
 #ifndef CZ_DYNAMICS_KERNEL_CHAIN_H
 #define CZ_DYNAMICS_KERNEL_CHAIN_H
@@ -19,27 +19,28 @@
 
 enum { CHAIN_ITERATIONS = 60, MOST_PLASTIC = 6 };
 #define CHAIN_TOLERANCE 1e-13 /* closure left unbalanced [m] */
-#define REACH_MARGIN 1e-6     /* more than the rounding of a chain's sum by far [m] (ours) */
-#define LAW_TOLERANCE 1.0     /* force by which a member may miss its law [N] (ours) */
+#define REACH_MARGIN 1e-6     /* far more than the rounding of a chain's sum [m] (ours) */
+#define LAW_TOLERANCE 1.0     /* largest deviation of a member from its law [N] (ours) */
 
 typedef struct Chain Chain;
 
-/* Linearises a member of one side: the first time about its committed stroke, later about where
- * the chain's force takes it, in the lanes where it misses its law. Returns how many those are. */
+/* Linearises a member of one side: first about its committed stroke, later (`again`) about its
+ * stroke under the chain's force, in the lanes where it does not satisfy its law. Returns the
+ * number of these lanes. */
 typedef double Linearise(Chain *chain, int side, int again);
 
 /* Force of the spring of one side at a stroke, in one lane: the law that Linearise linearises. */
 typedef double ForceAt(const Chain *chain, int side, size_t lane, double stroke);
 
-/* First stroke from `from` on at which the law of that spring, being loaded, begins to fall, or to
- * rise again (`rises`); infinite where there is none. */
+/* First stroke, not below `from`, at which the law of that spring under loading begins to fall, or
+ * to rise again (`rises`); infinite where there is none. */
 typedef double TurnsAt(const Chain *chain, int side, size_t lane, double from, int rises);
 
 /* The law of the springs of a chain. */
 typedef struct {
     Linearise *linearise;
     ForceAt *force_at;
-    TurnsAt *turns_at; /* NULL: no spring ever falls */
+    TurnsAt *turns_at; /* NULL: no spring has a falling part */
 } SpringLaw;
 
 /* A plastic member: tube, anti-climber or shear-off. */
@@ -47,10 +48,10 @@ typedef struct {
     const CzBlockCurve *curve;   /* of its strength; NULL for a shear-off */
     const CzShearOffRows *shear; /* of a shear-off */
     const double *rate;          /* rate factor */
-    const double *rise;          /* of its strength by the closing speed */
+    const double *rise;          /* increase of its strength by the closing speed */
     const double *stroke;        /* committed */
     double *next;
-    int is_missing; /* in all lanes: it would neither yield nor add to any sum */
+    int is_missing; /* in all lanes: it would neither yield nor change any sum */
 } Plastic;
 
 /* Rows of a spring, and of the energies of its side. */
@@ -70,23 +71,24 @@ typedef struct {
     CzRow strength, compliance; /* compliance of the step beyond the strength */
 } PlasticState;
 
-/* Where a chain is in its solution. */
+/* State of the solution of a chain. */
 typedef struct {
     _Alignas(64) CzRow force;
     CzRow lowest;    /* smallest force that it can carry */
     CzRow active;    /* 1 where the chain exists */
     CzRow low, high; /* bracket of the solution */
-    CzRow distance;  /* largest distance of a member from its law [N] */
-    CzRow falls;     /* above 0 where a law begins or ends to fall in this step, or falls far */
-    CzRow top;       /* largest strength at which a member began to yield in this step */
+    CzRow distance;  /* largest deviation of a member from its law [N] */
+    CzRow falls; /* above 0 where a falling part of a law begins or ends in this step, or the force
+                    drops far */
+    CzRow top;   /* largest strength at which a member began to yield in this step */
     SpringState spring[2];
     PlasticState plastic[MOST_PLASTIC];
 } ChainState;
 
-/* A chain of a block in one step. Members of side B follow those of side A; what belongs to an
- * element alone follows in a struct that begins with its chain. */
+/* A chain of a block in one step. Members of side B follow those of side A; data of one type of
+ * element is in a struct that begins with its chain. */
 struct Chain {
-    int n_plastic, n_curve; /* plastic members; those of them that have a curve come first */
+    int n_plastic, n_curve; /* plastic members; those with a curve come first */
     int falls;              /* a strength fell in this step */
     double step;
     const double *closure;
@@ -105,8 +107,8 @@ typedef struct {
     CzRow force, up, down;
 } Trial;
 
-/* Begins the list of a chain with two plastic members that have curves: `last` and `next` are its
- * force, committed and to be. */
+/* Sets up a chain with two plastic members that have curves: `last` and `next` are its force,
+ * committed and new. */
 static void begin_chain(Chain *chain, const SpringLaw *law, const double *closure, double step,
                         const double *last, double *next) {
     chain->n_plastic = chain->n_curve = 2;
@@ -168,7 +170,7 @@ static void unbalance(const Chain *chain, CurveAt *restrict sum) {
     }
 }
 
-/* One Newton step in all lanes that have not arrived; returns whether all have. */
+/* One Newton step in all lanes that have not converged; returns whether all have. */
 static int improve(ChainState *now, const CurveAt *restrict sum) {
     double n_moving = 0.0;
     CZ_LANES_SUM(i, n_moving) {
@@ -192,7 +194,8 @@ static int improve(ChainState *now, const CurveAt *restrict sum) {
     return n_moving == 0.0;
 }
 
-/* Finds the chain's force in all lanes from the present one on; returns whether it did. */
+/* Finds the chain's force in all lanes, starting at the present one; returns whether all
+ * converged. */
 static int solve_linear(Chain *chain) {
     CZ_LANES (i) {
         chain->now.low[i] = -1e10;
@@ -207,7 +210,7 @@ static int solve_linear(Chain *chain) {
     return arrived;
 }
 
-/* Where a spring is linearised: its committed stroke, or where the chain's force takes it. */
+/* Stroke about which a spring is linearised: the committed one, or that under the chain's force. */
 static void choose_stroke(const Chain *chain, int side, int again, double *restrict stroke) {
     const double *restrict committed = chain->spring[side].stroke;
     const double *restrict force = chain->now.force;
@@ -222,8 +225,8 @@ static void choose_stroke(const Chain *chain, int side, int again, double *restr
     }
 }
 
-/* Takes over a spring's linearisation about a trial where it is the first one or the law's force
- * there is not the chain's; returns in how many lanes. */
+/* Accepts the linearisation of a spring about a trial stroke in lanes where it is the first one or
+ * where the law's force there differs from the chain's; returns the number of these lanes. */
 static double accept(ChainState *now, int side, int again, const Trial *restrict trial) {
     SpringState *spring = &now->spring[side];
     const double first = again ? 0.0 : 1.0;
@@ -241,13 +244,14 @@ static double accept(ChainState *now, int side, int again, const Trial *restrict
     return n_changed;
 }
 
-/* Linearises a spring that no lane has: it is rigid, whatever the force. */
+/* A spring that no lane has is rigid. */
 static double leave_out_spring(ChainState *now, int side) {
     memset(&now->spring[side], 0, sizeof now->spring[side]);
     return 0.0;
 }
 
-/* Sets a plastic member: strength over its stroke, with its rise and its rate factor. */
+/* Linearises a plastic member about its committed stroke: strength with its rise, and rate
+ * factor. */
 static void prepare_plastic(Chain *chain, int number) {
     const Plastic *member = &chain->plastic[number];
     PlasticState *plastic = &chain->now.plastic[number];
@@ -263,7 +267,7 @@ static void prepare_plastic(Chain *chain, int number) {
     }
 }
 
-/* Where the chain's force takes a plastic member; returns in how many lanes it yields. */
+/* Stroke of a plastic member under the chain's force; returns in how many lanes it yields. */
 static double trial_of_plastic(const Chain *chain, int number, double *restrict stroke) {
     const double *restrict committed = chain->plastic[number].stroke;
     const double *restrict force = chain->now.force;
@@ -277,9 +281,9 @@ static double trial_of_plastic(const Chain *chain, int number, double *restrict 
     return n_crushing;
 }
 
-/* Linearises a plastic member about a trial stroke where its strength there, `curve`, is not the
- * chain's force: with its tangent where the strength rises, such as in a stop; with the strength
- * itself where it falls. Returns in how many lanes. */
+/* Linearises a plastic member about a trial stroke where its strength there, `curve`, differs from
+ * the chain's force: with its tangent where the strength rises, such as in a stop; with constant
+ * strength where it falls. Returns the number of these lanes. */
 static double accept_plastic(Chain *chain, int number, const double *restrict stroke,
                              const CurveAt *restrict curve) {
     ChainState *now = &chain->now;
@@ -319,7 +323,7 @@ static double relinearise_plastic(Chain *chain, int number) {
         curve.slope[i] *= 1.0 + rise[i];
     }
     const double n_changed = accept_plastic(chain, number, stroke, &curve);
-    chain->falls |= n_changed > 0.0; /* may: a breakpoint upwards is taken too */
+    chain->falls |= n_changed > 0.0; /* perhaps: a breakpoint to a steeper slope counts too */
     return n_changed;
 }
 

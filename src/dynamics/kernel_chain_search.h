@@ -1,18 +1,18 @@
 /* The force of one series chain in one lane, from the laws themselves. Part of kernel.c only.
  *
  * The stroke x_j(F) that each member takes at a force grows with it up to the force at which its
- * law begins to fall, so up to the smallest of these forces there is one answer to
+ * law begins to fall, so up to the smallest of these forces there is one solution of
  *
  *   sum over members of x_j(F) + C F = closure
  *
  * found within a bracket that only shrinks. Where the closure requires more, the member that begins
- * to fall first is shortened further: F is its law at its own stroke, the others follow back along
- * their rising parts, until the closure is made up or its law rises again. From there on all laws
- * rise once more, up to the smallest force at which one begins to fall, and so on. That is the
- * branch on which the chain would move if it were closed slowly. Members that are alike move
- * together.
+ * to fall first is shortened further: F is its law at its own stroke, the others unload along their
+ * rising parts, until the closure is reached or its law rises again. From there on all laws rise
+ * once more, up to the smallest force at which one begins to fall, and so on. This is the path of a
+ * chain that is closed slowly. Identical members move together.
  *
- * A lane's answer depends on nothing but the lane. Few steps come here, so it need not be fast.
+ * The result of a lane depends on that lane alone. Few steps need the search, so it need not be
+ * fast.
  */
 #ifndef CZ_DYNAMICS_KERNEL_CHAIN_SEARCH_H
 #define CZ_DYNAMICS_KERNEL_CHAIN_SEARCH_H
@@ -25,21 +25,21 @@ enum {
     SEARCH_ITERATIONS = 200, /* of a bracket that is halved at least every other time */
     SEARCH_TURNS = 100       /* falling parts that one step may pass (ours) */
 };
-#define SEARCH_STIFFNESS 1.0 /* so that level parts have one answer [N/m] (ours) */
-#define SEARCH_CLOSURE 1e-14 /* closure that may be left open [m] */
-#define SEARCH_FORCE 1e-7    /* force by which a stroke may miss its law [N] */
-#define RIGID 1e25           /* a stiffness or strength from here on never deflects */
-#define ALIKE 1e-9           /* relative difference of members that are alike */
+#define SEARCH_STIFFNESS 1.0 /* makes the solution unique on level parts [N/m] (ours) */
+#define SEARCH_CLOSURE 1e-14 /* largest closure left unbalanced [m] */
+#define SEARCH_FORCE 1e-7    /* largest deviation of a stroke from its law [N] */
+#define RIGID 1e25           /* from this stiffness or strength on a member is rigid */
+#define ALIKE 1e-9           /* largest relative difference of identical members */
 #define BEYOND_FALL 1e-4     /* stroke beyond the fall at which they are compared [m] (ours) */
 
 typedef struct Search {
     const Chain *chain;
     size_t lane;
-    int holds; /* shear-offs keep the strength that they have */
+    int holds; /* shear-offs keep their present strength */
     int n_member;
     double start[SEARCH_MEMBERS];     /* committed stroke [m] */
-    double from[SEARCH_MEMBERS];      /* stroke from which the law rises: start, or a valley [m] */
-    double force[SEARCH_MEMBERS];     /* of the law there, if it moved no further [N] */
+    double from[SEARCH_MEMBERS];      /* stroke from which the law rises: start, or a minimum [m] */
+    double force[SEARCH_MEMBERS];     /* of the law at this stroke [N] */
     double fall[SEARCH_MEMBERS];      /* stroke at which it begins to fall [m] */
     double strongest[SEARCH_MEMBERS]; /* its force there [N] */
     int is_there[SEARCH_MEMBERS];     /* neither missing nor rigid */
@@ -48,15 +48,16 @@ typedef struct Search {
     double last; /* force at the beginning of the step [N] */
 } Search;
 
-/* What the step adds to a strength s(x): s(x) (1 + gain (x - start)) + stiffness (x - start). */
+/* Strength s(x) with the rate effect and stiffness of the step: s(x) (1 + gain (x - start)) +
+ * stiffness (x - start). */
 typedef struct Resistance {
     double start, gain, stiffness;
 } Resistance;
 
-/* First stroke from `from` on at which a strength with what the step adds begins to fall, or, where
- * it falls at `from`, at which it rises again (`rises`); infinite where there is none. The slope of
- * the sum falls along a falling part of the curve: one root says where it begins to fall, and it
- * does not rise again before the part ends. */
+/* First stroke, not below `from`, at which a strength with these additions begins to fall, or,
+ * where it falls at `from`, at which it rises again (`rises`); infinite where there is none. The
+ * slope of the sum decreases along a falling part of the curve: its one root is where the sum
+ * begins to fall, and the sum does not rise again before the end of that part. */
 static double curve_turns_at(const CzBlockCurve *curve, size_t lane, double from, int rises,
                              const Resistance *added) {
     double slope = 0.0, value = curve->start[lane], begin = 0.0;
@@ -111,7 +112,7 @@ static double law_at(const Search *s, int member, double stroke) {
     return force + SEARCH_STIFFNESS * moved;
 }
 
-/* Where the law of a plastic member turns, as TurnsAt. */
+/* TurnsAt for a plastic member. */
 static double plastic_turns_at(const Search *s, int number, double from, int rises) {
     const Plastic *member = &s->chain->plastic[number];
     if (number < s->chain->n_curve) {
@@ -179,8 +180,9 @@ static int is_shut(const Bracket *b) {
 
 /* ---- strokes at a force ---------------------------------------------------------------------- */
 
-/* Stroke of a member at a force, on the part of its law that rises. Springs follow back from where
- * they were at the beginning of the step, plastic members and what has passed a valley do not. */
+/* Stroke of a member at a force, on the part of its law that rises. Springs may unload below their
+ * stroke at the beginning of the step; plastic members and members that have passed a minimum may
+ * not. */
 static double stroke_at(const Search *s, int member, double force) {
     const double from = s->from[member];
     const int goes_on = force > s->force[member];
@@ -206,7 +208,7 @@ static double stroke_at(const Search *s, int member, double force) {
     return stroke;
 }
 
-/* Sum of the strokes and of the compliance less the closure. */
+/* Sum of the strokes and the deflection of the compliance, less the closure. */
 static double open_at(const Search *s, double force, double *stroke) {
     double sum = s->compliance * force - s->closure;
     for (int member = 0; member < s->n_member; ++member) {
@@ -216,7 +218,8 @@ static double open_at(const Search *s, double force, double *stroke) {
     return sum;
 }
 
-/* The same with the members that fall first, `goes_on`, at `beyond` from where they begin to. */
+/* The same, with the members that fall first, `goes_on`, at `beyond` the stroke where they
+ * begin. */
 static double open_beyond(const Search *s, const int *goes_on, int first, double beyond,
                           double *force, double *stroke) {
     *force = cz_larger(law_at(s, first, s->fall[first] + beyond), s->lowest);
@@ -228,7 +231,7 @@ static double open_beyond(const Search *s, const int *goes_on, int first, double
     return sum;
 }
 
-/* The member that falls first, and those that are like it; -1 where none falls. */
+/* The member that falls first, and those identical to it; -1 where none falls. */
 static int find_falling(const Search *s, int *goes_on) {
     int first = -1;
     double of_first = 0.0, beyond_first = 0.0;
@@ -255,7 +258,7 @@ static int find_falling(const Search *s, int *goes_on) {
 
 /* ---- the search ------------------------------------------------------------------------------ */
 
-/* Lets a member's law rise from a stroke on. */
+/* Begins the rising part of a member's law at a stroke. */
 static void rise_from(Search *s, int member, double from) {
     const int is_there = s->is_there[member];
     s->from[member] = from;
@@ -297,7 +300,7 @@ static Search search_of(const Chain *chain, int holds, size_t lane) {
     return s;
 }
 
-/* The answer between two forces, all laws rising; false where the closure requires more. */
+/* The solution between two forces, where all laws rise; false where the closure requires more. */
 static int search_rising(const Search *s, double least, double most, double *force,
                          double *stroke) {
     *force = least;
@@ -324,8 +327,8 @@ static int search_rising(const Search *s, double least, double most, double *for
     return 1;
 }
 
-/* The answer while the first member falls, up to `most` beyond where it begins to; false where the
- * closure requires more. Doubling strokes bracket the first one that closes the chain. */
+/* The solution while the first member falls, up to `most` beyond the stroke where it begins; false
+ * where the closure requires more. The stroke is doubled until it brackets the first solution. */
 static int search_falling(const Search *s, const int *goes_on, int first, double most,
                           double *force, double *stroke) {
     double low = 0.0, high = cz_smaller(most, 1e-6 * s->reach);
@@ -350,7 +353,7 @@ static int search_falling(const Search *s, const int *goes_on, int first, double
     return 1;
 }
 
-/* How far the members that go on fall before one of them rises again. */
+/* Stroke over which the members `goes_on` fall before one of them rises again. */
 static double falling_length(const Search *s, const int *goes_on) {
     double length = s->reach;
     for (int member = 0; member < s->n_member; ++member)
@@ -359,7 +362,7 @@ static double falling_length(const Search *s, const int *goes_on) {
     return length;
 }
 
-/* Follows the chain's branch, rising and falling in turn, up to its closure. */
+/* Follows the chain through rising and falling parts in turn, up to its closure. */
 static void search_branch(Search *s, double *force, double *stroke) {
     double least = s->lowest;
     for (int turn = 0; turn < SEARCH_TURNS; ++turn) {
@@ -378,8 +381,7 @@ static void search_branch(Search *s, double *force, double *stroke) {
     }
 }
 
-/* How far the members of a lane are from their laws at the strokes and the force that are in the
- * block [N]. */
+/* Largest deviation of the members of a lane from their laws at given strokes and force [N]. */
 static double distance_of(const Search *s, const double *stroke, double force) {
     double distance = 0.0;
     for (int member = 0; member < s->n_member; ++member) {
@@ -393,7 +395,7 @@ static double distance_of(const Search *s, const double *stroke, double force) {
     return distance;
 }
 
-/* Strokes to which the linearised members of a lane go at the chain's force. */
+/* Strokes of the linearised members of a lane under the chain's force. */
 static void strokes_of(const Search *s, double *stroke) {
     const ChainState *now = &s->chain->now;
     const size_t i = s->lane;
@@ -411,8 +413,8 @@ static void strokes_of(const Search *s, double *stroke) {
                                         : 0.0);
 }
 
-/* Leaves the answer as a linearisation that gives it exactly. */
-static void keep_answer(ChainState *now, const Search *s, const double *stroke, double force) {
+/* Stores the solution as a linearisation that reproduces it exactly. */
+static void store_solution(ChainState *now, const Search *s, const double *stroke, double force) {
     const size_t i = s->lane;
     now->force[i] = force;
     for (int side = 0; side < 2; ++side) {
@@ -432,7 +434,7 @@ static void keep_answer(ChainState *now, const Search *s, const double *stroke, 
     }
 }
 
-/* What the strokes of a lane and its compliance miss of the closure. */
+/* Closure that the strokes of a lane and its compliance leave unbalanced. */
 static double open_by(const Search *s, double force, const double *stroke) {
     double sum = s->compliance * force - s->closure;
     for (int member = 0; member < s->n_member; ++member)
@@ -440,8 +442,8 @@ static double open_by(const Search *s, double force, const double *stroke) {
     return sum;
 }
 
-/* Finds the force of the chain in one lane anew where a member misses its law or `always`; notes
- * what is left open, for the run to judge. */
+/* Searches the force of the chain in one lane where a member does not satisfy its law, or `always`;
+ * publishes the residual, which the run checks. */
 static void search_lane(Chain *chain, CzPublished *published, int holds, size_t lane, int always) {
     Search s = search_of(chain, holds, lane);
     double stroke[SEARCH_MEMBERS], force = chain->now.force[lane];
@@ -452,7 +454,7 @@ static void search_lane(Chain *chain, CzPublished *published, int holds, size_t 
     double distance = distance_of(&s, stroke, force);
     if (always || is_open || !(distance <= LAW_TOLERANCE)) {
         search_branch(&s, &force, stroke);
-        keep_answer(&chain->now, &s, stroke, force);
+        store_solution(&chain->now, &s, stroke, force);
         distance = distance_of(&s, stroke, force);
         published->chain.searched[lane] += 1.0;
         sum = open_by(&s, force, stroke);

@@ -1,9 +1,9 @@
-/* Solution of a series chain for one step, and what the step leaves in its members. Part of
- * kernel.c only.
+/* Solves a series chain for one step and updates its members. Part of kernel.c only.
  *
- * The members are linearised about their committed strokes, and again about where the force takes
- * them where that misses a law. What has not settled after some passes, and every lane in which a
- * law begins or ends to fall, is searched for lane by lane: that search has an answer always.
+ * The members are linearised about their committed strokes, and again about their strokes under the
+ * chain's force where a law is not satisfied. Lanes that have not converged after some passes, and
+ * lanes in which a falling part of a law begins or ends, are searched one by one; that search
+ * always finds a solution.
  */
 #ifndef CZ_DYNAMICS_KERNEL_CHAIN_SOLVE_H
 #define CZ_DYNAMICS_KERNEL_CHAIN_SOLVE_H
@@ -14,9 +14,9 @@ enum {
     CHAIN_PASSES = 12
 }; /* linearisations of one step: more breakpoints than a step passes (ours) */
 
-/* Linearises all members about their committed strokes and finds the force that balances them. What
- * the chain can carry, where it exists and the plastic members that have no curve are set before.
- * Returns whether it did. */
+/* Linearises all members about their committed strokes and finds the force that balances them. The
+ * caller has set the lowest force, the active lanes and the plastic members without a curve.
+ * Returns whether the force was found. */
 static int start_chain(Chain *chain) {
     ChainState *now = &chain->now;
     const double *restrict last = chain->last;
@@ -34,8 +34,8 @@ static int start_chain(Chain *chain) {
     return solve_linear(chain);
 }
 
-/* Searches the active lanes in which something misses its law or begins to fall; `holds`: the
- * shear-offs do not soften. */
+/* Searches the active lanes in which a member does not satisfy its law or begins to fall; `holds`:
+ * the shear-offs do not soften. */
 static void search_lanes(Chain *chain, CzPublished *published, int holds) {
     for (size_t i = 0; i < CZ_LANE_BLOCK; ++i)
         if (chain->now.active[i] > 0.0)
@@ -50,9 +50,9 @@ static int some_lane_falls(const ChainState *now) {
     return n_falling > 0.0;
 }
 
-/* Linearises again what misses its law, `others` being the plastic members without a curve (NULL:
- * they stay as they are), until every member keeps it in the active lanes; `found`: the force of
- * the first linearisation was. Returns how often the force was found anew. */
+/* Linearises members again until all of them satisfy their laws in the active lanes. `others`
+ * linearises the plastic members without a curve (NULL: they stay as they are); `found`: the first
+ * linearisation has given a force. Returns how often the force was solved again. */
 static int settle_chain(Chain *chain, CzPublished *published, Linearise *others, int found) {
     int n_anew = 0, settled = 0;
     for (int pass = 1; found && !settled && pass < CHAIN_PASSES; ++pass) {
@@ -75,7 +75,7 @@ static int settle_chain(Chain *chain, CzPublished *published, Linearise *others,
     return n_anew + 1;
 }
 
-/* Keeps the chain's force, and how far its members are from their laws for the run to judge. */
+/* Stores the chain's force, and publishes the deviation of its members from their laws. */
 static void finish_chain(Chain *chain, CzPublished *published) {
     ChainState *now = &chain->now;
     double *restrict kept = chain->next, *restrict largest = published->chain.distance;
@@ -86,8 +86,8 @@ static void finish_chain(Chain *chain, CzPublished *published) {
     }
 }
 
-/* All three for a chain whose plastic members have curves. Returns whether the first linearisation
- * held in all lanes. */
+/* Starts, settles and finishes a chain whose plastic members all have curves. Returns whether the
+ * first linearisation was sufficient in all lanes. */
 static int solve_chain(Chain *chain, CzPublished *published) {
     const int found = start_chain(chain);
     const int n_anew = settle_chain(chain, published, NULL, found);
@@ -95,7 +95,7 @@ static int solve_chain(Chain *chain, CzPublished *published) {
     return n_anew == 0;
 }
 
-/* Takes the springs to the end of the step and adds the mean force times their travel to the
+/* Moves the springs to the end of the step and adds the mean force times their travel to the
  * energies.
  */
 static void move_springs(const Chain *chain) {
@@ -114,8 +114,8 @@ static void move_springs(const Chain *chain) {
     }
 }
 
-/* The same for the plastic members, whose travel counts for both energies of their side; `first`
- * begins the sum of the plastic ones. */
+/* The same for the plastic members, whose travel counts for both energies of their side; the sum of
+ * the plastic one starts with the `first` member. */
 static void move_plastic(const Chain *chain, int member, int first) {
     const Plastic *rows = &chain->plastic[member];
     const PlasticState *plastic = &chain->now.plastic[member];
@@ -143,8 +143,8 @@ static void move_members(const Chain *chain) {
     }
 }
 
-/* Strengths that members had where they began to yield in this step: where a strength falls, such
- * as behind a trigger peak, that is the largest force of the step. */
+/* Largest strength at which a member began to yield in this step: where a strength falls, such as
+ * behind a trigger peak, that is the largest force of the step. */
 static void chain_top(Chain *chain) {
     double *restrict top = chain->now.top;
     CurveAt curve;
@@ -161,7 +161,7 @@ static void chain_top(Chain *chain) {
     }
 }
 
-/* Whether no chain pushes or, where it can pull, exists. */
+/* Whether no chain pushes, and no chain exists that can pull. */
 static int is_slack(const ChainState *now) {
     double n_busy = 0.0;
     CZ_LANES_SUM(i, n_busy) {
@@ -171,7 +171,7 @@ static int is_slack(const ChainState *now) {
     return n_busy == 0.0;
 }
 
-/* Whether some lane is not surely apart; not a number is near. */
+/* Whether some lane is within reach; so is a closure that is not a number. */
 static int is_within(const double *restrict closure, const double *restrict reach) {
     double n_near = 0.0;
     CZ_LANES_SUM(i, n_near) {

@@ -1,4 +1,4 @@
-/* Contact of two faces: geometry, and forces put on their carriers. Part of kernel.c only.
+/* Contact of two faces: geometry, and forces on their carriers. Part of kernel.c only.
  *
  * n is the mean normal of the faces, t is normal to it, r_A and r_B are the face centres, P is
  * midway between them: closure = n . (r_A - r_B),   slip = t . (r_A - r_B). Both are exact
@@ -11,7 +11,7 @@
 #include "dynamics/kernel_carrier.h"
 #include "dynamics/kernel_chain_solve.h"
 
-/* A contact lined up. */
+/* Geometry and force of a contact. */
 typedef struct {
     _Alignas(64) CzRow closure;
     CzRow rate;
@@ -19,10 +19,10 @@ typedef struct {
     CzRow slip_rate;
     CzRow normal_x, normal_z; /* from side A to side B */
     CzRow arm_x[2], arm_z[2]; /* point of action from the carriers' centres of gravity */
-    CzRow force_x, force_z;   /* put on side B */
+    CzRow force_x, force_z;   /* on side B */
 } Contact;
 
-/* ---- line up ---- */
+/* ---- geometry ---- */
 
 static void line_up_contact(CzCarrier a, CzCarrier b, const CzPairRows *at,
                             const double *restrict tilts, Contact *restrict contact) {
@@ -59,9 +59,9 @@ static void line_up_ramp(const Contact *restrict contact, double *restrict ramp)
     }
 }
 
-/* ---- put ---- */
+/* ---- forces on the carriers ---- */
 
-/* Puts normal force and vertical force of the contact on both carriers. */
+/* Applies normal force and vertical force of the contact to both carriers. */
 static void put_contact(CzPlane *on_a, CzPlane *on_b, Contact *restrict contact,
                         const double *restrict normal, const double *restrict tangential,
                         double *restrict total) {
@@ -79,14 +79,14 @@ static void put_contact(CzPlane *on_a, CzPlane *on_b, Contact *restrict contact,
     }
 }
 
-/* Where ends have no mass, what is put on them goes straight into the body's section. */
+/* Forces on ends without mass pass directly into the body's section. */
 static void put_into_sections(CzBlock *d, const Contact *contact) {
     add(d->published.section[1], d->parameter.slaved_ends, contact->force_x);
     add(d->pushed.section, d->constant.slaved_ends_ahead, contact->force_x);
 }
 
-/* What the interface and sections without end mass lost in a step in which the force of a chain
- * fell: its largest force `most` against `force` at the end; `normal` is the element's. */
+/* Drop of the force at the interface and in sections without end mass, in a step in which the force
+ * of a chain fell; `normal` is the normal force of the element, `top` becomes its largest. */
 static void put_drop(CzBlock *d, const Contact *restrict contact, const ChainState *restrict now,
                      const double *restrict normal, double *restrict top) {
     const double *restrict slaved = d->parameter.slaved_ends, *restrict slaved_ahead =
@@ -96,7 +96,7 @@ static void put_drop(CzBlock *d, const Contact *restrict contact, const ChainSta
                      *restrict pushed = d->pushed.section;
     CZ_LANES (i) {
         const double held =
-            normal[i] / cz_larger(now->force[i], 1.0); /* damped, on what overlaps */
+            normal[i] / cz_larger(now->force[i], 1.0); /* with damping and lost overlap */
         const double more = held * cz_positive_part(now->top[i] - now->force[i]);
         const double lost = more * contact->normal_x[i];
         top[i] = normal[i] + more;
@@ -106,7 +106,7 @@ static void put_drop(CzBlock *d, const Contact *restrict contact, const ChainSta
     }
 }
 
-/* Notes of the force for a budget, and its points of action from the end masses. */
+/* Records for a budget the force, and its points of action relative to the end masses. */
 static void note_faces(CzBudgetRows *budget, const Contact *contact) {
     memcpy(budget->face_x, contact->force_x, sizeof(CzRow));
     memcpy(budget->face_z, contact->force_z, sizeof(CzRow));

@@ -1,10 +1,11 @@
-/* Couplers: their line is a series chain of buffers, tubes and shear-offs, and their ends turn
+/* Couplers: along their line a series chain of buffers, tubes and shear-offs; their ends rotate
  * against hinges. Part of kernel.c only.
  *
  *   hinge i:  M_i = engaged * (slider(theta - beta_i) + swing stop),  reacted by transverse forces
  *             (M_A + M_B) / length
  *
- * with the angle theta of the line. Faces that are not coupled are flattened by a push along it.
+ * with the angle theta of the line. Faces that are not coupled are pressed flat by a force along
+ * it.
  */
 #ifndef CZ_DYNAMICS_KERNEL_COUPLER_H
 #define CZ_DYNAMICS_KERNEL_COUPLER_H
@@ -33,8 +34,8 @@ static void engage_couplers(CzBlock *d, const CouplerLine *restrict line,
     }
 }
 
-/* Moment of the hinge of one side on its carrier, and the push that flattens the faces against it,
- * their engagement growing by `grows` with the closure. */
+/* Moment of the hinge of one side on its carrier, and the force along the line that presses the
+ * faces flat against it; `grows` is the increase of their engagement with the closure. */
 static void turn_hinge(CzBlock *d, int side, const CouplerLine *line, CzCarrier car,
                        const double *restrict grows, CouplerForces *restrict forces) {
     const CzHingeRows *restrict rows = &d->parameter.coupler.side[side].hinge_vertical;
@@ -61,7 +62,7 @@ static void turn_hinge(CzBlock *d, int side, const CouplerLine *line, CzCarrier 
     }
 }
 
-/* Closure of the couplers that are there. */
+/* Publishes the closure of the couplers that exist. */
 static void keep_closure(const double *restrict exists, const double *restrict closure,
                          double *restrict kept) {
     CZ_LANES (i) {
@@ -69,18 +70,18 @@ static void keep_closure(const double *restrict exists, const double *restrict c
     }
 }
 
-/* Whether the evaluation at hand leaves the memory of the couplers as it was. */
+/* Whether this evaluation leaves the memory of the couplers unchanged. */
 static int couplers_remember(const CzBlock *d) {
     return memcmp(&d->memory->coupler, &d->next_memory->coupler, sizeof d->memory->coupler) == 0;
 }
 
-/* Couplers that changed nothing and are still apart: both copies of their memory hold what they
- * would leave. */
+/* For couplers that changed nothing and are still apart: both copies of their memory are up to
+ * date. */
 static void leave_couplers(CzBlock *d) {
     memcpy(d->published.coupler.force, d->memory->coupler.force, sizeof(CzRow));
 }
 
-/* Couplers at work. */
+/* Evaluates the couplers where at least one may carry a force. */
 static void push_couplers(CzBlock *d, const CzCarrier car[2], const CouplerLine *line,
                           double step) {
     CouplerForces forces;

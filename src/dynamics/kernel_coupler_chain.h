@@ -1,5 +1,5 @@
-/* Couplers along their line: buffers, tubes and shear-offs in series; kernel_release.h is what
- * happens in the step in which a shear-off releases. Part of kernel.c only. */
+/* Couplers along their line: buffers, tubes and shear-offs in series; kernel_release.h treats the
+ * step in which a shear-off releases. Part of kernel.c only. */
 #ifndef CZ_DYNAMICS_KERNEL_COUPLER_CHAIN_H
 #define CZ_DYNAMICS_KERNEL_COUPLER_CHAIN_H
 
@@ -7,7 +7,7 @@
 #include "dynamics/kernel_release.h"
 
 #define LARGEST_PULL                                                                               \
-    1e8 /* tension that whole coupled couplers carry [N]: more than any train requires (ours) */
+    1e8 /* tension of undamaged coupled couplers: more than any train has [N] (ours) */
 
 /* The members of the couplers of a block in this step. */
 static void list_couplers(CzBlock *d, const CouplerLine *line, double step, CouplerChain *of) {
@@ -40,7 +40,7 @@ static void list_couplers(CzBlock *d, const CouplerLine *line, double step, Coup
     }
 }
 
-/* Strengths of the shear-offs, what the chains can pull, and where they exist. */
+/* Strengths of the shear-offs, tension that the chains can carry, and lanes in which they exist. */
 static void prepare_couplers(const CzCouplerRows *restrict rows, CouplerChain *of) {
     ChainState *now = &of->buffers.chain.now;
     memset(of->damage, 0, sizeof(CzRow));
@@ -53,8 +53,8 @@ static void prepare_couplers(const CzCouplerRows *restrict rows, CouplerChain *o
     }
 }
 
-/* Whether no chain pushes or could pull. Their sums at no force then give the closure up to which
- * that will stay so, for as long as nothing moves: a sum falls with the closure alone. */
+/* Whether no chain pushes or could pull. Then the sum of their members at zero force is the closure
+ * up to which this remains so, because a sum changes with the closure alone. */
 static int couplers_are_slack(const CouplerChain *of, double *restrict reach) {
     const Chain *chain = &of->buffers.chain;
     const double *restrict closure = chain->closure, *restrict active = chain->now.active;
@@ -82,8 +82,8 @@ static void coupler_top(CouplerChain *of, double *restrict top) {
         }
 }
 
-/* Force of the chain, and the members moved on; returns whether it would be the same again for any
- * closure up to the couplers' reach. */
+/* Solves the chain and moves its members; returns whether the result is the same for any closure up
+ * to the couplers' reach. */
 static int coupler_chain_force(CzBlock *d, const CouplerLine *line, CouplerChain *of) {
     Chain *chain = &of->buffers.chain;
     prepare_couplers(&d->parameter.coupler, of);

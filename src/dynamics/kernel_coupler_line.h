@@ -1,4 +1,4 @@
-/* Couplers lined up and put: a massless strut between two pivots. Part of kernel.c only.
+/* Geometry and forces of couplers: a massless strut between two pivots. Part of kernel.c only.
  *
  *   closure = free length - |r_B - r_A|,   force along the current line;
  *   where neither car can tilt, or one is a wall, closure and force are those along the track;
@@ -9,7 +9,7 @@
 
 #include "dynamics/kernel_carrier.h"
 
-/* A coupler lined up. */
+/* Geometry of a coupler. */
 typedef struct {
     _Alignas(64) CzRow closure;
     CzRow rate;
@@ -26,10 +26,11 @@ typedef struct {
     CzRow push;             /* largest longitudinal force of the step [N] */
     CzRow hinge_x, hinge_z; /* part of x and z that reacts the moments */
     CzRow moment[2];        /* [N m] */
-    CzRow mating[2];        /* push that flattens the faces against the hinge of a side [N] */
+    CzRow mating[2]; /* force along the line that presses the faces flat against the hinge of a side
+                        [N] */
 } CouplerForces;
 
-/* ---- line up ---- */
+/* ---- geometry ---- */
 
 /* One row of the pivot's carrier: the end mass's where the pivot is fixed to it, else the body's.
  */
@@ -56,7 +57,7 @@ static CzCarrier coupler_carrier(const CzBlock *d, int side, CzMotion *restrict 
     return carrier_of(motion);
 }
 
-/* The line lies along the track, whatever the closure, where nothing tilts. */
+/* Where neither car can pitch, the line is along the track at any closure. */
 static void line_up_coupler(CzCarrier a, CzCarrier b, const CzCouplerRows *restrict rows,
                             const double *restrict tilting, CouplerLine *restrict line) {
     CZ_LANES (i) {
@@ -83,9 +84,9 @@ static void line_up_coupler(CzCarrier a, CzCarrier b, const CzCouplerRows *restr
     }
 }
 
-/* Where a coupler has sheared off its line no longer turns about two pivots: from there on it
- * pushes like a face, midway between them and along the mean normal of the cars, which holds where
- * the pivots pass each other too. */
+/* The line of a coupler that has sheared off no longer rotates about two pivots: the coupler pushes
+ * like a face, midway between them and along the mean normal of the cars, also after the pivots
+ * have passed each other. */
 static void line_up_released(CzCarrier a, CzCarrier b, const CzBlock *d,
                              CouplerLine *restrict line) {
     const CzCouplerRows *restrict rows = &d->parameter.coupler;
@@ -129,8 +130,8 @@ static void line_up_swing(CzCarrier car, const CouplerLine *restrict line,
     }
 }
 
-/* Whether a coupler may have come within reach, from where its pivots are along the track: their
- * distance there is never more than that along the coupler. */
+/* Whether a coupler may be within reach, judged by the distance of its pivots along the track,
+ * which never exceeds that along the coupler. */
 static int pivots_are_near(const CzBlock *d) {
     const CzCouplerRows *restrict rows = &d->parameter.coupler;
     const CzCarrier ea = end_at(d, 0), ba = body_at(d, 0);
@@ -148,12 +149,12 @@ static int pivots_are_near(const CzBlock *d) {
         const double way = chosen(on_b, eb.displacement->x[i], bb.displacement->x[i]) -
                            chosen(on_a, ea.displacement->x[i], ba.displacement->x[i]);
         const double along = rows->pivot.distance[i] + way + (bx - x_b) - (ax - x_a);
-        n_near += rows->length[i] - along <= reach[i] ? 0.0 : 1.0; /* not a number is near */
+        n_near += rows->length[i] - along <= reach[i] ? 0.0 : 1.0; /* a NaN counts as near */
     }
     return n_near > 0.0;
 }
 
-/* Change of the height of one underframe over the other at the pivots, as they were lined up. */
+/* Change of the height of one underframe over the other at the pivots. */
 static void underframe_extremes(CzBlock *d) {
     const CzCarrier own = own_body(d), ahead = body_at(d, 1);
     const CzPairRows *restrict pivot = &d->parameter.coupler.pivot;
@@ -166,9 +167,10 @@ static void underframe_extremes(CzBlock *d) {
     }
 }
 
-/* ---- put ---- */
+/* ---- forces on the carriers ---- */
 
-/* Strut force with what a release adds to it, what flattens the faces, and what reacts the hinges.
+/* Sums the strut force with the part that a release adds, the force that presses the faces flat,
+ * and the reaction to the hinges.
  */
 static void sum_coupler_forces(CzBlock *d, const CouplerLine *restrict line,
                                const double *restrict force, const double *restrict more,
@@ -197,8 +199,8 @@ static void sum_coupler_forces(CzBlock *d, const CouplerLine *restrict line,
     }
 }
 
-/* Puts strut force and hinge moments on the carriers of one side, and the largest strut force of
- * the step into the section behind. */
+/* Applies strut force and hinge moments to the carriers of one side, and adds the largest strut
+ * force of the step to the section behind. */
 static void put_coupler(CzBlock *d, int side, const CouplerLine *restrict line,
                         const CouplerForces *restrict forces) {
     const double *restrict on_end = d->parameter.coupler.side[side].on_end;
@@ -213,7 +215,7 @@ static void put_coupler(CzBlock *d, int side, const CouplerLine *restrict line,
     }
 }
 
-/* Notes for a budget what strut and hinges put on the body of one side. */
+/* Records for a budget the forces of strut and hinges on the body of one side. */
 static void note_coupler(CzBlock *d, int side, const CouplerLine *restrict line,
                          const CouplerForces *restrict forces) {
     const double *restrict on_end = d->parameter.coupler.side[side].on_end;

@@ -7,7 +7,7 @@
 #include "laws/drag.h"
 #include "laws/slider.h"
 
-/* After all other forces: a car at rest is held against their sum. */
+/* Comes after all other forces, because a car at rest is held against their sum. */
 static void drag(CzBlock *d) {
     const CzDragRows *restrict rows = &d->parameter.drag;
     const double *restrict mass = d->constant.body_mass, *restrict slaved =

@@ -1,10 +1,11 @@
-/* An end of a car lined up and put: between its end mass and the body. Part of kernel.c only. */
+/* Geometry and forces of an end of a car, between its end mass and the body. Part of kernel.c
+ * only. */
 #ifndef CZ_DYNAMICS_KERNEL_END_LINE_H
 #define CZ_DYNAMICS_KERNEL_END_LINE_H
 
 #include "dynamics/kernel_carrier.h"
 
-/* An end lined up, beside its shortening along the body's axis and its slip across it, which are
+/* Geometry of an end, except its shortening along the body's axis and its slip across it, which are
  * published. */
 typedef struct {
     _Alignas(64) CzRow rate;      /* of the shortening */
@@ -14,7 +15,7 @@ typedef struct {
     CzRow mass_arm_x, mass_arm_z; /* from that of the end mass */
 } EndLine;
 
-/* What the laws make of it. */
+/* Forces by its laws. */
 typedef struct {
     _Alignas(64) CzRow across; /* guidance, downward on the end mass [N] */
     CzRow moment;              /* against its pitch [N m] */
@@ -24,7 +25,7 @@ static inline double outwards(int end) {
     return end == 0 ? -1.0 : 1.0;
 }
 
-/* ---- line up ---- */
+/* ---- geometry ---- */
 
 static void line_up_end(CzBlock *d, int end, EndLine *restrict line) {
     const CzCarrier body = own_body(d), mass = own_end(d, end);
@@ -55,7 +56,7 @@ static void line_up_end(CzBlock *d, int end, EndLine *restrict line) {
     }
 }
 
-/* ---- put ---- */
+/* ---- forces on the carriers ---- */
 
 static void put_end(CzBlock *d, int end, const EndLine *restrict line,
                     const EndForces *restrict forces) {
@@ -76,7 +77,7 @@ static void put_end(CzBlock *d, int end, const EndLine *restrict line,
     }
 }
 
-/* Notes for a budget what crush zone and guidance put on the body. */
+/* Records for a budget the forces of crush zone and guidance on the body. */
 static void note_end(CzBlock *d, int end, const EndLine *restrict line,
                      const EndForces *restrict forces) {
     const double sign = outwards(end);

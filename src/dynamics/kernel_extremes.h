@@ -1,4 +1,4 @@
-/* The commit of a step: work, and the largest of what was and what is. Part of kernel.c only. */
+/* The commit of a step: adds work and updates the largest values. Part of kernel.c only. */
 #ifndef CZ_DYNAMICS_KERNEL_EXTREMES_H
 #define CZ_DYNAMICS_KERNEL_EXTREMES_H
 
@@ -32,8 +32,8 @@ static void interface_extremes(CzBlock *d, double time) {
     }
 }
 
-/* How near the faces came to climbing. `chain` is the chain's own force: it is still there once the
- * faces passed each other. */
+/* How near the faces came to climbing. `chain` is the chain's own force: it remains after the faces
+ * have passed each other. */
 static void face_extremes(CzBlock *d, double time) {
     const double *restrict normal = d->published.face.force, *restrict remaining =
                                                                  d->published.face.remaining;

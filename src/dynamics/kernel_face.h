@@ -51,7 +51,7 @@ static void freeze_speed(const CzBlock *d, const Contact *restrict contact, Face
     }
 }
 
-/* Normal force of the faces: chain, damping, and what is left of them while the overlap runs out.
+/* Normal force of the faces: chain and damping, of which less remains as the overlap is lost.
  */
 static void press_faces(CzBlock *d, const Contact *restrict contact, const double *restrict chain) {
     const CzFaceRows *restrict rows = &d->parameter.face;
@@ -73,8 +73,8 @@ static void press_faces(CzBlock *d, const Contact *restrict contact, const doubl
     }
 }
 
-/* Mean force of the step that was and is held, over the chain's: members of faces that have been
- * released are carried on without work. */
+/* Corrects the energies by the share of the chain's mean force that the faces still transmit:
+ * members of released faces move without work. */
 static void count_held(const CzFaceMemory *restrict memory, CzFaceMemory *restrict next,
                        const double *restrict compliance) {
     CZ_LANES (i) {
@@ -126,9 +126,8 @@ static void grip_faces(CzBlock *d, const Contact *restrict contact) {
 
 /* ---- faces that are apart ---- */
 
-/* Whether no chain pushes. Their sums at no force then give the closure up to which that will stay
- * so, for as long as nothing moves; a face that was never touched remembers the speed of the first
- * touch. */
+/* Whether no chain pushes. Then the sum of its members at zero force is the closure up to which
+ * this remains so; for faces that never touched it is first contact, whose speed must be stored. */
 static int faces_are_slack(CzBlock *d, const Chain *chain) {
     const double *restrict closure = chain->closure, *restrict speed = d->memory->face.speed;
     double *restrict reach = d->face_reach;
@@ -143,14 +142,14 @@ static int faces_are_slack(CzBlock *d, const Chain *chain) {
     return !is_within(closure, reach);
 }
 
-/* Whether the evaluation at hand leaves the memory of the faces as it was, but for where the ribs
- * will seat. */
+/* Whether this evaluation leaves the memory of the faces unchanged, except where the ribs will
+ * seat. */
 static int faces_remember(const CzBlock *d) {
     return memcmp(&d->memory->face, &d->next_memory->face, sizeof d->memory->face) == 0;
 }
 
-/* The answer for faces that are apart: no force, ribs that will seat where they meet. Both copies
- * of the other memory hold what would be left. */
+/* For faces that are apart: no force, and ribs that will seat where the faces meet. Both copies of
+ * their other memory are up to date. */
 static void leave_faces(CzBlock *d, const Contact *contact) {
     memset(d->published.face.force, 0, sizeof(CzRow));
     memset(d->published.face.demand_vertical, 0, sizeof(CzRow));
@@ -158,7 +157,7 @@ static void leave_faces(CzBlock *d, const Contact *contact) {
     memcpy(d->next_memory->grip.slip_vertical, contact->slip_vertical, sizeof(CzRow));
 }
 
-/* Solves the chain and moves its members on. */
+/* Solves the chain and moves its members. */
 static void push_faces(CzBlock *d, const Contact *contact, FaceChain *of) {
     Chain *chain = &of->chain;
     memset(chain->now.lowest, 0, sizeof(CzRow));

@@ -1,9 +1,9 @@
 /* Suspensions, traction links and axle guidance: each bogie in the frame of the body, each axle in
  * the frame of its bogie. Part of kernel.c only.
  *
- * The body takes a bogie at the pin of its link, the bogie an axle at its centre; both may
- * turn by any angle, as a bogie does whose wheels are off the rail. Strokes and rates are each
- * other's integrals at any, so that the springs give back no more than they took.
+ * A bogie is connected to the body at the pin of its link, an axle to the bogie at its centre; both
+ * may rotate by any angle, as a bogie with lifted wheels does. At any angle strokes are the
+ * integrals of their rates, so that springs return no more energy than they received.
  */
 #ifndef CZ_DYNAMICS_KERNEL_GEAR_H
 #define CZ_DYNAMICS_KERNEL_GEAR_H
@@ -15,7 +15,7 @@
 /* Forces of springs and dampers. */
 typedef struct {
     double spring, damper;   /* of the suspension, with its stops [N] */
-    double guides, resisted; /* along the frame: link, or axle guidance, forward on what it holds */
+    double guides, resisted; /* along the frame: link, or axle guidance, forward on bogie or axle */
 } GearForces;
 
 static inline GearForces gear_forces(const CzSuspensionLaw *law, const CzStrutRows *strut,

@@ -1,11 +1,11 @@
-/* Bogies and axles lined up and put: a bogie in the frame of the body, axles in that of a bogie.
- * Part of kernel.c only. */
+/* Geometry and forces of bogies and axles: a bogie in the frame of the body, axles in that of a
+ * bogie. Part of kernel.c only. */
 #ifndef CZ_DYNAMICS_KERNEL_GEAR_LINE_H
 #define CZ_DYNAMICS_KERNEL_GEAR_LINE_H
 
 #include "dynamics/kernel_carrier.h"
 
-/* A bogie lined up: the pin from its centre of gravity, and in the frame of the body. */
+/* Geometry of a bogie: its pin, from its centre of gravity and in the frame of the body. */
 typedef struct {
     CzPoint pin;
     CzInFrame at;
@@ -22,7 +22,7 @@ typedef struct {
     double stretch, stretching;
 } StrutStrokes;
 
-/* ---- line up ---- */
+/* ---- geometry ---- */
 
 static inline BogieLine line_up_bogie(CzCarrier body, CzCarrier bogie, const CzParameters *rows,
                                       Rest rest, size_t i) {
@@ -50,16 +50,16 @@ static inline CzInFrame line_up_axle(CzCarrier bogie, const CzWheelset *at, cons
     return cz_in_frame(bogie, i, from_bogie);
 }
 
-/* ---- put ---- */
+/* ---- forces on the carriers ---- */
 
-/* Puts what an axle carries on it. */
+/* Applies the load of an axle to it. */
 static inline void put_on_axle(CzWheelset *on, size_t i, CzPush push) {
     on->x[i] += push.x;
     on->z[i] += push.z;
 }
 
-/* Notes for a budget what link, suspension and stops put on the body, which had `before` before
- * them. */
+/* Records for a budget the forces of link, suspension and stops on the body: the present sum less
+ * `before`. */
 static void note_bogie(CzBlock *d, int bogie, const CzPlane *restrict before) {
     const double sign = bogie == 0 ? -1.0 : 1.0;
     const CzParameters *restrict rows = &d->parameter;

@@ -16,7 +16,7 @@
     CZ_PRAGMA(omp simd reduction(+ : sum))                                                         \
     for (size_t i = 0; i < CZ_LANE_BLOCK; ++i)
 
-/* What nothing adds. */
+/* A row of zeros, where there is nothing to add. */
 static const _Alignas(64) CzRow zeros = {0.0};
 
 /* A curve at the strokes of all lanes. */
@@ -64,7 +64,7 @@ static void curve_at(const CzBlockCurve *curve, size_t lane, double x, double *v
     }
 }
 
-/* Adds to `count` in the lanes that pass the begin or the end of a falling part of a curve. */
+/* Adds to `count` in the lanes that pass the beginning or the end of a falling part of a curve. */
 static void count_turns(const CzBlockCurve *curve, const double *restrict from,
                         const double *restrict to, double *restrict count) {
     _Alignas(64) CzRow slope = {0.0};

@@ -1,12 +1,12 @@
-/* Crush zones without an end mass, in series with the anti-climbers: springs of the faces' chain, a
- * damper beside each. Part of kernel.c only. */
+/* Crush zones without an end mass, in series with the anti-climbers: springs of the faces' chain,
+ * with a damper parallel to each. Part of kernel.c only. */
 #ifndef CZ_DYNAMICS_KERNEL_MASSLESS_H
 #define CZ_DYNAMICS_KERNEL_MASSLESS_H
 
 #include "dynamics/kernel_chain_solve.h"
 #include "laws/buffer.h"
 
-#define LARGE_DROP 0.01 /* share of its force that a spring loses in a step (ours) */
+#define LARGE_DROP 0.01 /* share of its force that a chain loses in a step (ours) */
 
 /* The crush zone of one side. */
 typedef struct {
@@ -20,7 +20,7 @@ typedef struct {
 
 /* The chain of the faces. */
 typedef struct {
-    Chain chain; /* first: the solution hands it back */
+    Chain chain; /* must be first: the solution passes its address back */
     Massless massless[2];
     _Alignas(64) CzRow rise[2]; /* of the anti-climbers' strength by the speed at first contact */
 } FaceChain;
@@ -68,7 +68,7 @@ static double linearise_massless(Chain *chain, int side, int again) {
     return accept(&chain->now, side, again, &trial);
 }
 
-/* The law of that in one lane. */
+/* Its force in one lane. */
 static double massless_force(const Chain *chain, int side, size_t i, double shortening) {
     const Massless *massless = &((const FaceChain *)chain)->massless[side];
     const CzVehicleEndLaw law = cz_crush_at(massless->rows, i);
@@ -93,7 +93,7 @@ static double massless_turns(const Chain *chain, int side, size_t i, double from
 
 static const SpringLaw crush_zones = {linearise_massless, massless_force, massless_turns};
 
-/* Largest shortening, and what the damping took in the step. */
+/* Stores the largest shortening and the energy dissipated by the damping in the step. */
 static void keep_massless(const Massless *massless, double step) {
     const CzMasslessMemory *restrict before = massless->memory;
     CzMasslessMemory *restrict next = massless->next;

@@ -1,15 +1,15 @@
-/* What passes between the lanes of a car and those of the car ahead, which may lie in other blocks.
+/* Exchange between the lanes of a car and those of the car ahead, which may be in another block.
  * Part of kernel.c only.
  *
- * Before the interfaces every block reads where the car ahead is; after them every block takes over
- * what the interfaces behind its cars push. Nobody writes into another block.
+ * Before the interfaces every block reads the motion of the cars ahead; after them every block adds
+ * the forces of the interfaces behind its cars. No block writes into another one.
  */
 #ifndef CZ_DYNAMICS_KERNEL_NEIGHBOURS_H
 #define CZ_DYNAMICS_KERNEL_NEIGHBOURS_H
 
 #include "dynamics/kernel_lanes.h"
 
-/* CZ_LANE_BLOCK lanes that lie across two blocks. */
+/* CZ_LANE_BLOCK neighbouring lanes, which may span two blocks. */
 typedef struct {
     const CzBlock *low, *high;
     size_t offset; /* of the first lane in `low` */
@@ -19,7 +19,7 @@ static const CzBlock *block_or_zeros(const CzDynamics *dynamics, int index) {
     return &dynamics->block[index >= 0 && index < dynamics->n_block ? index : dynamics->n_block];
 }
 
-/* The lanes `shift` on from those of a block; zeros where there are none. */
+/* The lanes at a distance of `shift` from those of a block; zeros where there are none. */
 static Window window(const CzDynamics *dynamics, int index, int shift) {
     const int offset = (shift % CZ_LANE_BLOCK + CZ_LANE_BLOCK) % CZ_LANE_BLOCK;
     const int low = index + (shift - offset) / CZ_LANE_BLOCK;
@@ -30,8 +30,8 @@ static Window window(const CzDynamics *dynamics, int index, int shift) {
 /* A row of both blocks side by side. */
 typedef double Pair[2 * CZ_LANE_BLOCK];
 
-/* Lays n rows that follow each other in both blocks. All are laid before the first is picked: a
- * load across two stores waits for both. */
+/* Copies n consecutive rows of both blocks. All are copied before the first is read, because a load
+ * that spans two stores waits for both. */
 static inline void lay(const void *low, const void *high, Pair *restrict pair, int n) {
     const CzRow *restrict lower = low, *restrict upper = high;
     for (int k = 0; k < n; ++k)
@@ -41,8 +41,7 @@ static inline void lay(const void *low, const void *high, Pair *restrict pair, i
         }
 }
 
-/* The rows that are seen through a window. Cars may lie on a curve one day: then what is seen is
- * turned and shifted here. */
+/* Reads the rows of a window. For cars on a curved track they would be rotated and shifted here. */
 static inline void pick(const Window *w, const Pair *restrict pair, void *rows, int n) {
     const size_t offset = w->offset;
     CzRow *restrict row = rows;
@@ -59,7 +58,7 @@ enum {
     ROWS_PUSHED = CZ_ROWS_IN(CzPushed)
 };
 
-/* Lays a motion as the rows of a CzMotion. */
+/* Copies a motion as the rows of a CzMotion. */
 static inline void lay_motion(const Window *w, size_t plane, size_t turned, Pair *pair) {
     const char *low = (const char *)w->low, *high = (const char *)w->high;
     const size_t at = offsetof(CzBlock, position), moves = offsetof(CzBlock, velocity);
@@ -68,7 +67,7 @@ static inline void lay_motion(const Window *w, size_t plane, size_t turned, Pair
     lay(low + turned, high + turned, pair + 2 * ROWS_OF_PLANE, ROWS_OF_TURNED);
 }
 
-/* Where the body and the rear end of the car ahead are, and how they move. */
+/* Reads position and velocity of the body and the rear end of the car ahead. */
 static void look_ahead(const CzDynamics *dynamics, int index) {
     CzBlock *d = &dynamics->block[index];
     const Window ahead = window(dynamics, index, dynamics->lanes->n_design);
@@ -79,7 +78,8 @@ static void look_ahead(const CzDynamics *dynamics, int index) {
     pick(&ahead, (const Pair *)pair, &d->ahead, 2 * ROWS_OF_MOTION);
 }
 
-/* What the interfaces behind the cars push: rear ends and their sections start from it. */
+/* Forces of the interfaces behind the cars: the sums of rear ends and their sections start with
+ * them. */
 static void take_over(const CzDynamics *dynamics, int index) {
     CzBlock *d = &dynamics->block[index];
     const Window behind = window(dynamics, index, -dynamics->lanes->n_design);
@@ -90,8 +90,8 @@ static void take_over(const CzDynamics *dynamics, int index) {
     pick(&behind, (const Pair *)pair + 2 * ROWS_OF_PLANE, d->published.section[0], 1);
 }
 
-/* Bodies get it on top of everything else, so that the sum does not depend on how lanes are
- * grouped. */
+/* Adds them to the bodies after all other forces, so that the sum does not depend on the grouping
+ * of lanes. */
 static void push_bodies(CzPlane *restrict body, const CzPlane *restrict pushed) {
     CZ_LANES (i) {
         body->x[i] += pushed->x[i];

@@ -1,16 +1,16 @@
 /* Shear-offs of couplers. Part of kernel.c only.
  *
- * A shear-off releases inside a step. The chain is first solved as if it held, which gives when its
- * force F_x is reached: the closure beyond that is what it would have to yield. Then it releases,
- * and the step's mean force is that of the path through F_x,
+ * A shear-off releases inside a step. The chain is first solved as if it held, which gives the
+ * moment when its force F_x is reached and the closure beyond that. Then it releases, and the
+ * step's mean force is that of the path through F_x,
  *
  *   theta (F_last + F_x) / 2 + (1 - theta) (s (F_x + F_end) / 2 + (1 - s) F_end)
  *
  * theta is the share of the step before F_x, s that of the rest in which the force falls: it falls
  * over a closure of softening - compliance F_x, at once where the chain deflects faster than the
  * shear-off softens. The integrator takes a step's impulse as the mean of the forces at its ends;
- * what that leaves out is added to the force on the bodies, once. Without it an outcome would not
- * depend on F_x but in jumps from step to step.
+ * the remainder is added once to the force on the bodies. Without it results would change with F_x
+ * only in jumps from step to step.
  */
 #ifndef CZ_DYNAMICS_KERNEL_RELEASE_H
 #define CZ_DYNAMICS_KERNEL_RELEASE_H
@@ -23,17 +23,17 @@ enum { SHEAR_OFF = 4 }; /* plastic member of the chain, of side A */
 /* A release in this step. */
 typedef struct {
     CzRow force; /* at which a shear-off releases; 0 where none does [N] */
-    CzRow left;  /* closure of the step that is left then [m] */
-    CzRow more;  /* what the mean force of the step is more than the mean of its ends [N] */
+    CzRow left;  /* closure of the step after that [m] */
+    CzRow more;  /* mean force of the step less the mean of the forces at its ends [N] */
 } Release;
 
 /* The chain of the couplers. */
 typedef struct {
-    BufferChain buffers;       /* first: the solution hands it back */
-    _Alignas(64) CzRow damage; /* share of the coupler's strength that shear-off has taken */
+    BufferChain buffers;       /* must be first: the solution passes its address back */
+    _Alignas(64) CzRow damage; /* share of the coupler's strength lost by the shear-off */
     Release release;
     int yields;   /* a shear-off moves on in this step */
-    int releases; /* one that was whole releases in it */
+    int releases; /* an undamaged one releases in this step */
 } CouplerChain;
 
 /* A shear-off that no lane has never yields. */
@@ -45,7 +45,7 @@ static double leave_out_shear_off(PlasticState *plastic) {
     return 0.0;
 }
 
-/* Linearises the shear-off of one side; the first time also gives the damage that it has done. */
+/* Linearises the shear-off of one side; the first time also computes the damage. */
 static double linearise_shear_off(Chain *chain, int side, int again) {
     const int member = SHEAR_OFF + side;
     const CzShearOffRows *restrict rows = chain->plastic[member].shear;
@@ -75,9 +75,9 @@ static double linearise_shear_off(Chain *chain, int side, int again) {
     return (double)CZ_LANE_BLOCK;
 }
 
-/* Marks the lanes in which a shear-off yields as the active ones, and what begins there: the force
- * at which an undamaged one releases, and the closure left after that, with what the springs took
- * of it while the smallest resistance held on. Says what there is of both. */
+/* Makes the lanes in which a shear-off yields the active ones. Finds the force at which an
+ * undamaged one releases there and the closure left after that, including the deflection of the
+ * springs beyond this force. Sets `yields` and `releases`. */
 static void mark_release(CouplerChain *of) {
     Chain *chain = &of->buffers.chain;
     ChainState *now = &chain->now;
@@ -111,15 +111,15 @@ static void mark_release(CouplerChain *of) {
     of->releases = n_released > 0.0;
 }
 
-/* What the shear-offs that release keep, of both sides. */
+/* Force after release of the shear-offs that release, both sides. */
 typedef struct {
     _Alignas(
         64) CzRow force; /* smallest at the end of the step; CZ_NEVER where none releases [N] */
-    CzRow residual;      /* largest that friction keeps [N] */
+    CzRow residual;      /* largest residual friction [N] */
     CzRow softening;     /* sum of their lengths [m] */
 } Kept;
 
-/* Adds one side, without what the smallest resistance adds over so long a travel. */
+/* Adds one side, without the part of the force due to CZ_SMALLEST_RESISTANCE. */
 static void add_kept(const Chain *chain, int side, Kept *restrict kept) {
     const double *restrict force = chain->now.force;
     const double *restrict travel = chain->plastic[SHEAR_OFF + side].stroke;
@@ -137,7 +137,7 @@ static void add_kept(const Chain *chain, int side, Kept *restrict kept) {
     }
 }
 
-/* Where a shear-off releases: what the bodies get beyond the force at the end of the step. */
+/* Where a shear-off releases: force on the bodies in addition to that at the end of the step. */
 static void release_impulse(const double *restrict rate, CouplerChain *of) {
     const Chain *chain = &of->buffers.chain;
     const ChainState *now = &chain->now;
@@ -167,7 +167,7 @@ static void release_impulse(const double *restrict rate, CouplerChain *of) {
     }
 }
 
-/* Releases shear-offs where they are to yield; returns how often the force was found anew. */
+/* Releases shear-offs in lanes where they yield; returns how often the force was solved again. */
 static int release(CzBlock *d, const double *restrict rate, CouplerChain *of) {
     Chain *chain = &of->buffers.chain;
     of->yields = of->releases = 0;
@@ -185,7 +185,7 @@ static int release(CzBlock *d, const double *restrict rate, CouplerChain *of) {
     return n_anew;
 }
 
-/* Work of that on the members of the side that releases. */
+/* Work of the additional force on the members of the side that releases. */
 static void release_work(CzBlock *d, const double *restrict rate, const CouplerChain *of) {
     const double *restrict more = of->release.more;
     const double step = of->buffers.chain.step;
@@ -204,8 +204,8 @@ static void release_work(CzBlock *d, const double *restrict rate, const CouplerC
 }
 
 /* Buffers that snap back as a shear-off releases: their force falls along their own law, at least
- * to that at the end of the step, and not in proportion to their travel. What the mean force of the
- * step would have them give back beyond that, the shear-off does not get. */
+ * to that at the end of the step, and not in proportion to their travel. The energy that they would
+ * return beyond that under the mean force of the step is not given to the shear-off. */
 static void snap_work(const CzCouplerMemory *restrict memory, CzCouplerMemory *restrict next) {
     CZ_LANES (i) {
         double moved[2], back[2];

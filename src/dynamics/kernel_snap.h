@@ -2,15 +2,15 @@
  *
  * Where the strength of a crush zone, or of the anti-climber in series with it, falls faster than
  * the elasticity of the chain can follow, the members jump from one equilibrium to the next within
- * a step, under a force that a chain without mass cannot determine. Bodies give the mean force of
- * the step over the closure, (F_last + F) / 2, and so do all members that are straight lines:
- * compliance, anti-climbers. A crush zone takes what its law says of its state,
+ * a step, under a force that a chain without mass cannot determine. The work of the bodies is the
+ * mean force of the step, (F_last + F) / 2, over the closure, and so is that of the linear members:
+ * compliance, anti-climbers. A crush zone receives the energy that its law gives for its state,
  *
  *   released = (F_last + F) / 2 * stroke - damped - (E(x) - E(x_last))     of both sides together,
  *
- * and what is left over is what the elasticity released beyond what the falling member takes at its
- * own force. In a vehicle it goes into vibration and heat at that member; so it is dissipated
- * there: in the crush zones that went on, or else by the anti-climbers.
+ * and the rest is the elastic energy released beyond the work on the falling member at its own
+ * force. In a vehicle it becomes vibration and heat at that member, so it is dissipated there: in
+ * the crush zones that crushed further, or else in the anti-climbers.
  */
 #ifndef CZ_DYNAMICS_KERNEL_SNAP_H
 #define CZ_DYNAMICS_KERNEL_SNAP_H
@@ -24,13 +24,14 @@ typedef struct {
     CzFaceMemory *next;
 } FaceStep;
 
-/* Whether a member of the chain of faces snaps in a lane: it went on while the force fell. */
+/* Whether a member of the chain of faces snaps in a lane: it crushed further while the force
+ * fell. */
 static int snaps(const FaceChain *of, size_t i) {
     return of->chain.now.falls[i] > 0.0 ||
            of->chain.next[i] < (1.0 - LARGE_DROP) * of->chain.last[i];
 }
 
-/* Of one lane, whose number among all is `lane`. */
+/* Dissipates the released energy of one lane; `lane` is its number among all. */
 static void settle_snap(const CzDynamics *dynamics, const FaceChain *of, FaceStep faces, size_t i,
                         size_t lane) {
     const double mean = 0.5 * (of->chain.last[i] + of->chain.next[i]);
@@ -55,7 +56,7 @@ static void settle_snap(const CzDynamics *dynamics, const FaceChain *of, FaceSte
             faces.next->side[side].energy[i] += released * face[side] / faces_went;
 }
 
-/* After the faces of a block were evaluated. Faces that lose their overlap have no work at all. */
+/* After the faces of a block were evaluated. Faces that lose their overlap do no work. */
 static void settle_snaps(const CzDynamics *dynamics, int index, const FaceChain *of) {
     const CzBlock *d = &dynamics->block[index];
     const FaceStep faces = {&d->memory->face, &d->next_memory->face};

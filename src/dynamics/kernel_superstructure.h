@@ -1,8 +1,8 @@
-/* Superstructures: what meets above the underframes once anti-climbers have lost each other. Part
- * of kernel.c only.
+/* Superstructures: contact above the underframes once the anti-climbers have lost contact. Part of
+ * kernel.c only.
  *
- * They are beside the anti-climbers, each with a height and a stroke of its own, so nothing has to
- * be switched: whichever is reached pushes. Their contact is smooth and upright.
+ * They act in parallel with the anti-climbers, each at its own height and stroke, so nothing has to
+ * be switched. Their contact is frictionless and vertical.
  */
 #ifndef CZ_DYNAMICS_KERNEL_SUPERSTRUCTURE_H
 #define CZ_DYNAMICS_KERNEL_SUPERSTRUCTURE_H

@@ -22,7 +22,7 @@ static void put_rail(CzRailRows *rail, size_t lane, CzRailPoint point) {
     rail->flexibility_slope[lane] = point.flexibility_slope;
 }
 
-/* The rails under one car. */
+/* Reads the rails under one car. */
 static void look_under(const CzTrackMotion *track, const CzTrackUnder *under, CzBlock *d,
                        size_t lane) {
     double place[4];
@@ -35,7 +35,7 @@ static void look_under(const CzTrackMotion *track, const CzTrackUnder *under, Cz
                                     cz_track_at(track, under, axle), seat[axle]));
 }
 
-/* The rails under the wheels of a block, where these are now. */
+/* Reads the rails under the wheels of a block at their present places. */
 static void look_at_modes(const CzTrackMotion *track, CzBlock *d, int block) {
     for (size_t i = 0; i < CZ_LANE_BLOCK; ++i) {
         const CzTrackUnder *under = &track->under[(size_t)block * CZ_LANE_BLOCK + i];
@@ -58,7 +58,8 @@ static void look_at_elements(CzElements *elements, CzBlock *d, int block) {
     }
 }
 
-/* What rolls along has no slope; the flexibility beside the modes changes from seat to seat. */
+/* The modes move with the bogie, so they have no slope; the additional flexibility varies over a
+ * bay. */
 static void look_at_receptance(const CzReceptanceMotion *track, CzBlock *d, int block) {
     const CzReceptanceBlock *under = &track->block[block];
     for (int axle = 0; axle < 4; ++axle) {
@@ -141,7 +142,7 @@ static void advance_elements(CzElements *elements, CzBlock *d, int block) {
     }
 }
 
-/* One step of n modes under a force; adds what they deflect. */
+/* One step of n modes under a force; adds their deflection. */
 static void advance_pair(const CzPairStep *mode, int n, const double *restrict force, CzRow *state,
                          double *restrict now, double *restrict past) {
     for (int k = 0; k < n; ++k) {

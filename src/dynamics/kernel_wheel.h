@@ -20,8 +20,8 @@ static void press_on_rigid(CzBlock *d, int axle) {
     }
 }
 
-/* Normal force of one axle on an elastic rail. The wheels are kept on their way along the track,
- * and the force is vertical: what the slope of the rail would push is the moving load's power. */
+/* Normal force of one axle on an elastic rail. The force on the wheels is vertical. The
+ * longitudinal force of the sloping rail is not applied; its power is that of the moving load. */
 static void press_on_elastic(CzBlock *d, int axle) {
     const double *restrict hertz = d->parameter.wheel.hertz;
     const double *restrict rest = d->constant.wheel_rest[axle];
@@ -86,8 +86,8 @@ static void wheel(CzBlock *d, int axle, double step) {
     }
 }
 
-/* Rolling resistance of one axle: a moment of the rail against the turning, after all others on the
- * wheelset; what it costs the car comes through the creepage. */
+/* Rolling resistance of one axle: a moment of the rail against the rotation, after all others on
+ * the wheelset; through the creepage it slows the car. */
 static void roll(CzBlock *d, int axle) {
     const double *restrict inertia = d->constant.wheelset_inertia;
     const CzWheelRows *restrict rows = &d->parameter.wheel;

@@ -1,24 +1,24 @@
-/* Wheelsets lined up and put: on the rail, and against the brake in the bogie frame. Part of
+/* Geometry and forces of wheelsets: on the rail, and in the brake on the bogie frame. Part of
  * kernel.c only. */
 #ifndef CZ_DYNAMICS_KERNEL_WHEEL_LINE_H
 #define CZ_DYNAMICS_KERNEL_WHEEL_LINE_H
 
 #include "dynamics/kernel_carrier.h"
 
-/* A wheelset lined up. */
+/* Motion of a wheelset. */
 typedef struct {
     double slip, speed;    /* of the contact point over the rail, and along it [m/s] */
     double rate_up;        /* [m/s] */
     double angle, turning; /* in the brake: the frame turns the other way round [rad, rad/s] */
 } WheelLine;
 
-/* What acts on it. */
+/* Forces on it. */
 typedef struct {
     double tangential, more; /* of the rail, `more` beyond the static load [N] */
     double brake;            /* [N m] */
 } WheelForces;
 
-/* ---- line up ---- */
+/* ---- geometry ---- */
 
 static inline WheelLine line_up_wheel(CzCarrier frame, const CzWheelset *at, const CzWheelset *rate,
                                       double radius, size_t i) {
@@ -27,7 +27,7 @@ static inline WheelLine line_up_wheel(CzCarrier frame, const CzWheelset *at, con
                        rate->spin[i] + frame.rate->pitch[i]};
 }
 
-/* ---- put ---- */
+/* ---- forces on the carriers ---- */
 
 static inline void put_wheel(CzWheelset *on, CzPlane *on_bogie, size_t i, WheelForces forces,
                              double radius) {

@@ -1,4 +1,4 @@
-/* Laws with the numbers of one lane. */
+/* Laws with the parameters of one lane. */
 #ifndef CZ_DYNAMICS_LAW_ROWS_H
 #define CZ_DYNAMICS_LAW_ROWS_H
 

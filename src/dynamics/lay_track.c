@@ -1,7 +1,8 @@
-/* Laying the track under the cars at t = 0, and what it holds of energy. */
+/* Lays the track under the cars at t = 0, and finds its energy. */
 #include "dynamics/dynamics.h"
 
-/* A wheelset's place and load at rest, and what a car's track deflects under all four. */
+/* Place and load of each wheelset of a car at rest, and the deflection of the track under all
+ * four. */
 typedef struct Standing {
     double place[4], load[4], deflection[4], flexibility[4];
 } Standing;
@@ -104,7 +105,7 @@ bool cz_dynamics_lay_track(CzDynamics *dynamics, const CzTrackModes *modes, CzTr
     return true;
 }
 
-/* Under one car on a track of modes or of elements. */
+/* Energy under one car on a modal track or a track of elements. */
 static double energy_under(const CzDynamics *dynamics, size_t lane) {
     if (!has_wheels(cz_block_of(dynamics, lane), lane % CZ_LANE_BLOCK))
         return 0.0;

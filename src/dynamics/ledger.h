@@ -6,8 +6,8 @@
 
 #include "model/state.h"
 
-/* Power of an evaluation [W], or work of a run [J], that the mechanical system gives to each kind
- * of element; ledger.def says what each row is. Pairs are ends, rear first, or sides A and B. */
+/* Power of an evaluation [W], or work of a run [J], that the mechanical system transfers to each
+ * kind of element; ledger.def describes each row. Pairs are ends, rear first, or sides A and B. */
 typedef struct CzPower {
     CzRow coupler, hinge[2];
     CzRow face, face_damping, face_sliding;
@@ -20,11 +20,11 @@ typedef struct CzPower {
     CzRow brake, rolling, slide;
 } CzPower;
 
-/* A row of it by its name, such as CZ_LEDGER(end_damping[1]). */
+/* A row by its name, such as CZ_LEDGER(end_damping[1]). */
 #define CZ_LEDGER(member) CZ_ROW_OF(CzPower, member)
 enum { CZ_N_LEDGER = CZ_ROWS_IN(CzPower) };
 
-/* Start of an extreme that may stay below 0: below all that a run reaches. */
+/* Initial value of an extreme that may stay below 0: lower than any value of a run. */
 #define CZ_NOT_YET -1e300
 
 /* Largest values over all steps; smallest ones are kept with their sign turned. Those of an
@@ -47,7 +47,7 @@ typedef struct CzExtremes {
     CzRow swing_vertical[2]; /* angle of the engaged coupler against its car [rad] */
     CzRow face_climbed;      /* 1 once the faces had no overlap left under load */
     CzRow end_force[2];      /* of the rear and the front crush zone [N] */
-    CzRow section[2];        /* force through the section behind an end, all paths [N] */
+    CzRow section[2];        /* force through the section behind an end, all load paths [N] */
     CzRow link_force, link_travel;           /* of a traction link [N], of a bogie there [m] */
     CzRow body_acceleration;                 /* longitudinal [m/s2] */
     CzRow body_pitch;                        /* [rad] */
@@ -56,12 +56,12 @@ typedef struct CzExtremes {
     CzRow climb_time;                /* CZ_NOT_YET; minus the time of the first override [s] */
     CzRow slide_travel, slide_force; /* of a buffer stop: travel [m]; jaws and end stop [N] */
     CzRow chain_residual;            /* closure that the series chains left unbalanced [m] */
-    CzRow chain_distance; /* largest distance of a member of a series chain from its law [N] */
+    CzRow chain_distance; /* largest deviation of a member of a series chain from its law [N] */
     CzRow coupler_closure, face_closure, side_closure; /* [m] */
-    CzRow searched; /* series chains that were searched for: a sum over the steps */
+    CzRow searched; /* solutions of series chains that needed a search, sum over the steps */
 } CzExtremes;
 
-/* A row of it by its name, such as CZ_EXTREME(lift[0]). */
+/* A row by its name, such as CZ_EXTREME(lift[0]). */
 #define CZ_EXTREME(member) CZ_ROW_OF(CzExtremes, member)
 
 #endif

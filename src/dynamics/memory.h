@@ -1,6 +1,5 @@
-/* What the laws remember from step to step, by element. All starts at 0. Memory of an interface is
- * in the lane of the rear car: side 0 (A) is its front end, side 1 (B) the rear end of the car
- * ahead. */
+/* State variables of the laws, by element. All starts at 0. Memory of an interface is in the lane
+ * of the rear car: side 0 (A) is its front end, side 1 (B) the rear end of the car ahead. */
 #ifndef CZ_DYNAMICS_MEMORY_H
 #define CZ_DYNAMICS_MEMORY_H
 
@@ -30,7 +29,7 @@ typedef struct CzMasslessMemory {
     CzRow peak;    /* its largest [m] */
     CzRow energy;  /* work [J] */
     CzRow resists; /* force of its damping [N] */
-    CzRow damped;  /* part of the work that the damping took [J] */
+    CzRow damped;  /* part of the work dissipated by the damping [J] */
 } CzMasslessMemory;
 
 typedef struct CzFaceMemory {
@@ -47,7 +46,8 @@ typedef struct CzFaceMemory {
     } side[2];
 } CzFaceMemory;
 
-/* Ribs and friction of the faces; beside the rest, because it follows faces that are apart. */
+/* Ribs and friction of the faces; apart from the rest, because it also changes while the faces are
+ * apart. */
 typedef struct CzGripMemory {
     CzRow slip_vertical; /* vertical offset that has slipped [m] */
 } CzGripMemory;

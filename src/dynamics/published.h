@@ -1,4 +1,4 @@
-/* What an evaluation reports others, by element: forces, strokes, contacts. */
+/* Results of an evaluation for its users, by element: forces, strokes, contacts. */
 #ifndef CZ_DYNAMICS_PUBLISHED_H
 #define CZ_DYNAMICS_PUBLISHED_H
 
@@ -7,21 +7,22 @@
 typedef struct CzPublished {
     struct {
         CzRow force; /* total longitudinal force [N] */
-        CzRow drop;  /* what the force along the track lost in this step, by a shear-off or a
-                        strength that falls [N] */
+        CzRow drop;  /* drop of the force along the track in this step, by a shear-off or a falling
+                        strength [N] */
     } interface;
-    CzRow section[2]; /* force through the section behind the rear and front end, all paths [N] */
+    CzRow section[2]; /* force through the section behind the rear and front end, all load paths [N]
+                       */
     CzRow adhesion;   /* external force along the track, wheels and brakes [N] */
     struct {
         CzRow residual; /* closure that the chains left unbalanced [m] */
-        CzRow distance; /* largest distance of a member of a chain from its law [N] */
-        CzRow searched; /* chains that were searched for */
+        CzRow distance; /* largest deviation of a member of a chain from its law [N] */
+        CzRow searched; /* chains that needed a search */
     } chain;
     struct {
         CzRow force;             /* of the chain [N] */
         CzRow closure;           /* as it was last evaluated [m] */
         CzRow top;               /* largest force of a step in which it fell; 0 in others [N] */
-        CzRow engaged;           /* how much the faces hold each other against swinging, 0 to 1 */
+        CzRow engaged;           /* how far the faces are engaged against swinging, 0 to 1 */
         CzRow swing_vertical[2]; /* angle of the engaged coupler against its car, less that at rest
                                     [rad] */
     } coupler;
@@ -30,7 +31,7 @@ typedef struct CzPublished {
         CzRow closure;         /* as it was last evaluated [m] */
         CzRow top;             /* largest force of a step in which it fell; 0 in others [N] */
         CzRow demand_vertical; /* vertical force between the faces [N] */
-        CzRow ready;           /* what they can carry in full engagement [N] */
+        CzRow ready;           /* capacity in full engagement [N] */
         CzRow remaining;       /* overlap [m] */
         CzRow ramp;            /* slope of the faces [-] */
     } face;
@@ -67,14 +68,14 @@ typedef struct CzPublished {
         CzRow travel; /* of the axle against the bogie [m] */
     } axle_guidance[4];
     struct {
-        CzRow approach; /* of wheel and rail: the indentation and what the rail deflects at once;
-                           negative: height of the wheel over the rail [m] */
+        CzRow approach; /* of wheel and rail: the indentation and the immediate deflection of the
+                           rail; negative: height of the wheel over the rail [m] */
         CzRow force;    /* normal force of the wheelset [N] */
     } wheel[4];
     CzRow slide_force; /* of the friction jaws and the end stop of a buffer stop [N] */
 } CzPublished;
 
-/* A row of it by its name, such as CZ_PUBLISHED(end[0].stroke). */
+/* A row by its name, such as CZ_PUBLISHED(end[0].stroke). */
 #define CZ_PUBLISHED(member) CZ_ROW_OF(CzPublished, member)
 
 #endif

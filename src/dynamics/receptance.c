@@ -1,4 +1,4 @@
-/* Setting up and looking at the receptance track; its steps are in kernel_track.h. */
+/* Sets up and reads the receptance track; its steps are in kernel_track.h. */
 #include "dynamics/receptance.h"
 
 #include <string.h>
@@ -60,7 +60,7 @@ static const CzReceptancePart *part_under(const CzReceptanceBlock *block, size_t
     return NULL;
 }
 
-/* The part of a block for an axle spacing, made when it has none. */
+/* The part of a block for an axle spacing, created when missing. */
 static CzReceptancePart *part_for(const CzReceptanceMotion *track, CzReceptanceBlock *block,
                                   double axle_spacing, CzArena *arena) {
     for (int k = 0; k < block->n_part; k++)
@@ -92,7 +92,7 @@ static void add_deflection(double deflection, int motion, double *rear, double *
     *front += motion == CZ_PAIR_BOUNCE ? deflection : -deflection;
 }
 
-/* Deflections of a lane by its states. */
+/* Deflections of a lane from its states. */
 static void read_states(CzReceptanceBlock *block, const CzReceptancePart *part, size_t i) {
     for (int wheel = 0; wheel < 4; wheel++)
         block->z[wheel][i] = block->past[wheel][i] = 0.0;
@@ -146,7 +146,7 @@ void cz_receptance_look(const CzReceptanceMotion *track, size_t lane, const doub
     }
 }
 
-/* Adds what the modes of one motion of a bogie could still give back, half a step ago, in all lanes
+/* Adds the energy that the modes of one motion of a bogie can return, half a step ago, in all lanes
  * of a part. */
 static void add_stored(const CzReceptancePart *part, int bogie, int motion, CzRow energy) {
     const CzRow *state = states_of(part, bogie, motion);

@@ -13,16 +13,16 @@ typedef struct CzPairStep {
     CzComplex kick;   /* state per force */
     CzComplex now;    /* deflection per state */
     CzComplex past;   /* half a step ago */
-    CzComplex rest;   /* state per force that holds */
+    CzComplex rest;   /* state per constant force */
     CzComplex back;   /* state half a step ago per state */
 } CzPairStep;
 
-/* What bogies of one axle spacing have under them. */
+/* Track under bogies of one axle spacing. */
 typedef struct CzReceptanceSteps {
     const CzReceptance *receptance; /* borrowed */
     int n[CZ_N_PAIR_MOTION];
     CzPairStep mode[CZ_N_PAIR_MOTION][CZ_MOST_PAIR_MODES];
-    CzTrackFlexibility flexibility; /* under a wheel, beside the modes */
+    CzTrackFlexibility flexibility; /* under a wheel, in addition to the modes */
 } CzReceptanceSteps;
 
 /* Under the cars of a block that have bogies of one axle spacing; all other lanes stay at zero. */
@@ -57,17 +57,17 @@ CzReceptanceMotion *cz_receptance_create(const CzTrackModes *modes, double step,
 bool cz_receptance_lay(CzReceptanceMotion *track, size_t lane, double axle_spacing,
                        const double load[4], CzArena *arena);
 
-/* Deflection of the modes under each wheel now [m], and at the wheels' places the flexibility
- * beside them [m/N]. */
+/* Deflection of the modes under each wheel now [m], and the additional flexibility at the wheels'
+ * places [m/N]. */
 void cz_receptance_look(const CzReceptanceMotion *track, size_t lane, const double place[4],
                         double deflection[4], double flexibility[4]);
 
-/* Energy that the track under each car of a block can still give back, half a step ago [J]. */
+/* Energy that the track under each car of a block can return, half a step ago [J]. */
 void cz_receptance_energy(const CzReceptanceMotion *track, int block, CzRow energy);
 
-/* For a solver that carries the states, as in track.h: numbers of the state under a car, 0 without
- * wheels, the states themselves, and their rates under forces upwards on the rail [N], with the
- * rate of the rail under each wheel [m/s]. */
+/* For a solver that integrates the states, as in track.h: the number of states under a car, 0
+ * without wheels, the states themselves, and their rates under forces upwards on the rail [N], with
+ * the rate of the rail under each wheel [m/s]. */
 size_t cz_receptance_n_state(const CzReceptanceMotion *track, size_t lane);
 void cz_receptance_get_state(const CzReceptanceMotion *track, size_t lane, double *state);
 void cz_receptance_set_state(CzReceptanceMotion *track, size_t lane, const double *state);

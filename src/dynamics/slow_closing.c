@@ -1,6 +1,6 @@
 /* A load path is a row of members, each with a force over its stroke. Closed slowly, the weakest
  * deflects: of all members the one with the smallest force at its own stroke moves on, and the path
- * carries that force. Paths side by side add up.
+ * carries that force. The forces of parallel paths add up.
  */
 #include "dynamics/slow_closing.h"
 
@@ -29,7 +29,7 @@ static double strength(const Path *path, const Member *member) {
     return cz_curve_value(&path->lanes->curve[member->curve], member->lane, member->stroke);
 }
 
-/* Adds a member unless it is one that never deflects. */
+/* Adds a member unless it is rigid. */
 static void add(Path *path, CzCurveId curve, size_t lane) {
     const Member member = {curve, lane, 1e-6};
     if (strength(path, &member) < 1e20 * member.stroke)
@@ -82,7 +82,7 @@ static Path coupler_path(const CzLanes *lanes, int interface) {
         const double softening = rows->side[side].shear.softening[at.i];
         CzShearOffLaw *weaker = &path.shear_off;
         if (force < weaker->force || (force == weaker->force && softening > weaker->softening)) {
-            weaker->softening = softening; /* of the weaker one: a wall has none that counts */
+            weaker->softening = softening; /* of the weaker one: that of a wall does not count */
             weaker->residual = rows->side[side].shear.residual[at.i];
         }
         weaker->force = fmin(weaker->force, force);

@@ -1,4 +1,4 @@
-/* Elastic energy that the elements could still give back. */
+/* Elastic energy that the elements can return. */
 #include "dynamics/stored.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 
 #define SMALL_STROKE 1e-7 /* of a buffer, within its first stage [m] */
 
-/* Of a spring by its stretch, and by its force. */
+/* Energy of a spring from its deflection, and from its force. */
 static double by_stretch(double stiffness, double stretch) {
     return 0.5 * stiffness * stretch * stretch;
 }
@@ -46,7 +46,7 @@ static double buffer_stored(const BufferAt *buffer, size_t lane) {
     const double lower = cz_smaller(share * upper_curve, line);
     const double force = cz_clamp(transition * (stroke - buffer->memory->offset[i]), lower, upper);
     const double over = force - lower;
-    /* Close to zero the lower curve is the transition itself: less the triangle above that. */
+    /* Near zero the lower curve is the transition itself: subtract the triangle above it. */
     const double first = share * cz_curve_value(curve, lane, 0.0);
     const double rise = (share * cz_curve_value(curve, lane, SMALL_STROKE) - first) / SMALL_STROKE;
     const double triangle = 0.5 * first * first / cz_larger(transition - rise, 1.0);
@@ -103,7 +103,7 @@ static double side_tubes_stored(const CzDynamics *dynamics, size_t lane) {
     return by_stretch(d->parameter.side_buffers.compliance[i], d->memory->side_buffers.force[i]);
 }
 
-/* Force that a buffer rises by in a step that touches it, times the stroke of that step. */
+/* Rise of a buffer's force in the step of first touch, times the stroke of that step. */
 static double touch(const CzCurveLanes *curve, const CzBufferRows *rows, size_t lane,
                     double stroke) {
     const double rise = rows->transition[lane % CZ_LANE_BLOCK] * stroke;
@@ -292,8 +292,8 @@ static double crush_lost(const CzCurveLanes *curve, size_t lane, const CzVehicle
     return cz_curve_integral(curve, lane, held) - crush_stored(curve, lane, law, held, held);
 }
 
-/* What a crush zone has received is a function of its state alone, so that nothing adds up on the
- * way. */
+/* The energy that a crush zone has received depends on its state alone, so that no error
+ * accumulates. */
 static void fill_crush(const CzCurveLanes *curve, size_t lane, const CzVehicleEndLaw *law, double x,
                        double largest, CzCrushEnergy *energy) {
     if (largest != energy->largest)

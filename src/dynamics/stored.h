@@ -1,5 +1,5 @@
-/* Elastic energy of the elements that store and lose, in a lane [J]; side 0 is A, 1 is B; end 0 is
- * the rear one. */
+/* Elastic energy of the elements that store and dissipate, in a lane [J]; side 0 is A, 1 is B; end
+ * 0 is the rear one. */
 #ifndef CZ_DYNAMICS_STORED_H
 #define CZ_DYNAMICS_STORED_H
 
@@ -7,14 +7,14 @@
 
 #define CZ_PLATE_STIFFNESS 2e7 /* vertical stiffness of buffer plates that stick [N/m] (ours) */
 
-/* A crush zone: what it stores, and what it has received so far, which is that and what was lost
- * in loading it to its largest shortening. */
+/* A crush zone: what it stores, and the energy that it has received: the stored part and the loss
+ * of loading it to its largest shortening. */
 typedef struct CzCrushEnergy {
     double stored, received;
     double largest, lost; /* shortening [m] that `lost` belongs to: found again when it grows */
 } CzCrushEnergy;
 
-/* All that a lane stores; 0 where an element is not there. */
+/* Stored energy of the elements of a lane; 0 where an element is missing. */
 typedef struct CzStored {
     /* of the interface */
     double coupler[2]; /* buffers of a side */
@@ -37,13 +37,13 @@ typedef struct CzStored {
 /* Fills in what a lane stores now. `stored` is zero at first and keeps what was found before. */
 void cz_stored_fill(const CzDynamics *dynamics, size_t lane, CzStored *stored);
 
-/* What a step of a stroke that touches the buffer of one side may be off by: the force that it
- * rises by, preload and transition, times the stroke. */
+/* Error of the work in the step in which a stroke first touches the buffer of one side: rise of the
+ * force, by preload and transition, times the stroke. */
 double cz_coupler_touch(const CzDynamics *dynamics, size_t lane, int side, double stroke);
 double cz_side_touch(const CzDynamics *dynamics, size_t lane, int side, double stroke);
 
-/* What a crush zone without mass has received in a state that is none yet: shortened by x, at most
- * by `largest` so far. */
+/* Energy that a crush zone without mass has received once shortened by x, and at most by `largest`
+ * before. */
 double cz_massless_received_at(const CzDynamics *dynamics, size_t lane, int side, double x,
                                double largest);
 

@@ -1,4 +1,4 @@
-/* Setting up and looking at the modal track; its steps are in track_motion.h. */
+/* Sets up and reads the modal track; its steps are in track_motion.h. */
 #include "dynamics/track.h"
 
 #include <string.h>
@@ -148,7 +148,7 @@ static void load_group(const CzTrackMotion *track, const CzTrackUnder *under, in
     }
 }
 
-/* The modes that the constant forces of the wheels make. */
+/* States of the modes under constant forces of the wheels. */
 static void rest_under(const CzTrackMotion *track, const CzTrackUnder *under) {
     const CzTrackModes *modes = track->modes;
     for (int k = 0; k < modes->n_group; ++k) {
@@ -203,8 +203,8 @@ typedef struct Parts {
     CzTrackRow value[CZ_TRACK_PARTS], rate[CZ_TRACK_PARTS];
 } Parts;
 
-/* Adds the modes of a group when the last force was about to end: the present state without half a
- * flight, and its rate, the force that still acts included. */
+/* Adds the modes of a group half a step ago, at the end of the last force: their state then, and
+ * its rate with that force still acting. */
 static void add_group(const CzTrackMotion *track, const CzTrackUnder *under, int k, Parts *parts) {
     const CzTrackAmplitudes *restrict of = &track->amplitudes[k];
     const double *restrict re = under->state[2 * k], *restrict im = under->state[2 * k + 1];
@@ -292,8 +292,8 @@ void cz_track_set_state(CzTrackMotion *track, size_t index, const double *state)
     cz_track_read(track, &track->under[index]);
 }
 
-/* Rates of one group of modes under the load of its row of waves; what they move on the rail is
- * added to the waves. */
+/* Rates of one group of modes under the load of its row of waves; the rate of the rail is added to
+ * the waves. */
 static void rate_of_group(const CzTrackGroup *group, const CzTrackRows *rows, bool aliased,
                           const double *restrict re, const double *restrict im,
                           double *restrict rate_re, double *restrict rate_im, CzTrackWaves *waves) {
@@ -310,7 +310,7 @@ static void rate_of_group(const CzTrackGroup *group, const CzTrackRows *rows, bo
     cz_track_give(rows, rate_re, rate_im, aliased, waves);
 }
 
-/* What a row of waves moves at the wheels. */
+/* Rate of the rail at the wheels by a row of waves. */
 static void add_rail_rate(const CzTrackMotion *track, const CzTrackUnder *under, int copy, int v,
                           bool aliased, const CzTrackWaves *waves, double rail_rate[4]) {
     for (int wheel = 0; wheel < 4; ++wheel) {

@@ -17,13 +17,13 @@
 CzTrackMotion *cz_track_motion_create(const CzTrackModes *modes, double step, size_t n_under,
                                       CzArena *arena);
 
-/* Gives a car its track, or another one, at rest under the forces of its wheels [N] at their places
- * [m]; false when there is no memory. */
+/* Lays the track of a car, or replaces it, at rest under the forces of its wheels [N] at their
+ * places [m]; false when there is no memory. */
 bool cz_track_lay(CzTrackMotion *track, size_t index, const double place[4], const double load[4],
                   CzArena *arena);
 
 /* Deflection of the modes under each wheel at the places of the last look or step [m], and the
- * flexibility beside them [m/N]. */
+ * additional flexibility [m/N]. */
 void cz_track_look(const CzTrackMotion *track, size_t index, const double place[4],
                    double deflection[4], double flexibility[4]);
 
@@ -35,9 +35,9 @@ double cz_track_loss(const CzTrackMotion *track, size_t index);
 
 /* ---- the same track for a solver of ordinary differential equations ----
  *
- * A track that is laid for a step of 0 is at rest until somebody sets its state, the real and
- * imaginary parts of its modes; its flexibility is that of continuous time. A solver that carries
- * these states beside the vehicles' co-ordinates does in its right-hand side
+ * A track that is laid for a step of 0 is at rest until its state is set, the real and imaginary
+ * parts of its modes; its flexibility is that of continuous time. A solver that integrates these
+ * states with the vehicles' co-ordinates calls in its right-hand side
  *
  *   1. cz_track_set_state for each car,
  *   2. the kernel's evaluation, which finds the forces of the wheels,

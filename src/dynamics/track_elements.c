@@ -46,7 +46,8 @@ static void shape_slope_of(const CzSeats *seats, double l, double x, double slop
     slope[3] = scale * (3.0 * x * x - 2.0 * x - 0.5 * f * (1.0 - 2.0 * x));
 }
 
-/* What an element with held nodes deflects at a share x of it: its two parts in parallel. */
+/* Flexibility of an element with fixed nodes at a share x of its length: its two parts in
+ * parallel. */
 static double held_flexibility(const CzSeats *seats, double l, double x) {
     if (x < 1e-6 || x > 1.0 - 1e-6)
         return 0.0;
@@ -261,7 +262,7 @@ static CzElementsBlock *block_of(const CzElements *elements, size_t lane) {
     return &elements->block[lane / CZ_LANE_BLOCK];
 }
 
-/* Where a wheel is: its element's first unknowns, and a share of the element. */
+/* Place of a wheel: the first unknowns of its element, and the share of the element's length. */
 typedef struct Stand {
     size_t i, j;
     double x;
@@ -312,7 +313,7 @@ static void rest(const CzElements *elements, size_t lane) {
     CzElementsRow *u = elements->work;
     memset(u, 0, elements->n * sizeof *u);
     press(elements, lane, 1.0, NULL, u);
-    for (size_t i = 0; i < elements->n; ++i) /* at rest every kick turns the rate round */
+    for (size_t i = 0; i < elements->n; ++i) /* at rest every kick reverses the rate */
         block->v[i][k] = -0.5 * elements->step * u[i][k] / elements->mass[i];
     solve(elements, elements->rest, u);
     for (size_t i = 0; i < elements->n; ++i)
@@ -333,7 +334,7 @@ bool cz_elements_lay(CzElements *elements, size_t lane, const double place[4], c
     return true;
 }
 
-/* Moves one lane of a part by whole bays: what is lost behind comes back unloaded in front. */
+/* Moves one lane of a part by whole bays: nodes that drop out behind return unloaded in front. */
 static void shift(CzElementsRow *part, size_t n, size_t moved, bool forwards, size_t k) {
     for (size_t i = 0; i < n; ++i) {
         const size_t to = forwards ? i : n - 1 - i;

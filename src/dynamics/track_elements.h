@@ -1,10 +1,10 @@
-/* The track as finite elements: the independent check of the modal one, slow and plain.
+/* The track as finite elements: a slow and simple independent check of the modal track.
  *
  * Under each car lies a piece of rail of Timoshenko elements, pinned at its ends, with lumped
  * masses, and under every seat pad, sleeper and ballast block. Stiffness is exact for loads at the
- * nodes; a wheel between two nodes presses them by the element's own shape, and the element's
- * deflection between its nodes is a flexibility under the wheel. When the car has moved by a bay,
- * the piece moves with it: the bay behind is given up, an unloaded one is laid in front.
+ * nodes; a wheel between two nodes loads them by the element's shape functions, and the deflection
+ * of the element between its nodes is a flexibility under the wheel. When the car has moved by a
+ * bay, the piece moves with it: the last bay is removed, an unloaded one is added in front.
  *
  * A step is a kick by the forces of the wheels and a flight by the trapezoidal rule, stable for any
  * step:
@@ -71,15 +71,16 @@ CzElements *cz_elements_create(const CzSeats *seats, int nodes, double span, dou
 bool cz_elements_lay(CzElements *elements, size_t lane, const double place[4], const double load[4],
                      CzArena *arena);
 
-/* The rail under each wheel: deflection now and half a step ago, slope, flexibility beside the
- * nodes and its change along the track. Moves the piece when the car has left its middle. */
+/* The rail under each wheel: deflection now and half a step ago, slope, additional flexibility
+ * between the nodes and its change along the track. Moves the piece when the car has left its
+ * middle. */
 void cz_elements_look(CzElements *elements, size_t lane, const double place[4],
                       CzRailPoint point[4]);
 
 /* Deflection half a step ago at the places of the last look. */
 double cz_elements_past(const CzElements *elements, size_t lane, int wheel);
 
-/* One step of all cars of a block under the forces that are noted at the places of the last look.
+/* One step of all cars of a block under the forces recorded at the places of the last look.
  */
 void cz_elements_step(CzElements *elements, size_t block);
 

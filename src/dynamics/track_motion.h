@@ -36,7 +36,7 @@ typedef struct CzTrackRows {
 enum { CZ_PAD_FORCE, CZ_PAD_STRETCH, CZ_SLEEPER, CZ_BALLAST, CZ_RAIL_WAVE };
 enum { CZ_TRACK_PARTS = CZ_RAIL_WAVE + CZ_BLOCK_WAVES };
 
-/* What the modes of a group are for the parts of their blocks, per state: amplitudes at the crest.
+/* Amplitudes at the crest of the parts of a block, per state of the modes of a group.
  */
 typedef struct CzTrackAmplitudes {
     _Alignas(64) CzTrackRow lambda_re, lambda_im;
@@ -67,7 +67,7 @@ typedef struct CzTrackMotion {
     const CzTrackRow *wavenumber;   /* direct, alias [1/m] (2 n_vector) */
     const CzTrackBlock *block;      /* for the energy, as are the amplitudes (n_seat / 2 + 1) */
     const CzTrackAmplitudes *amplitudes; /* (n_group) */
-    CzTrackFlexibility flexibility;      /* under a wheel, beside the modes */
+    CzTrackFlexibility flexibility;      /* under a wheel, in addition to the modes */
     size_t n_under;
     CzTrackUnder *under; /* (n_under) */
 } CzTrackMotion;
@@ -79,8 +79,8 @@ static inline double cz_track_sum(const CzTrackRow row) {
     return ((row[0] + row[4]) + (row[2] + row[6])) + ((row[1] + row[5]) + (row[3] + row[7]));
 }
 
-/* Binary digits of 0 ... 7, as numbers: a row of them is chosen by in one register, and what a
- * narrower one stores is not at hand for the next load of a row. */
+/* Binary digits of 0 ... 7, as numbers, so that a whole row is selected in one register. A row
+ * stored in narrower pieces would delay its next load. */
 static const _Alignas(64) CzTrackRow cz_digit[3] = {
     {0, 1, 0, 1, 0, 1, 0, 1}, {0, 0, 1, 1, 0, 0, 1, 1}, {0, 0, 0, 0, 1, 1, 1, 1}};
 
@@ -124,8 +124,8 @@ static inline void cz_track_shape(const CzTrackMotion *track, const CzTrackTurns
     }
 }
 
-/* Rail waves at the four wheels of a car, and their turns in the bay. Ring and bay are turned in
- * one go: four of each fill a row. */
+/* Rail waves at the four wheels of a car, and their turns in the bay. The turns about ring and bay
+ * are computed together: four of each fill a row. */
 static inline void cz_track_shapes(const CzTrackMotion *track, const double place[4],
                                    CzTrackRow *shape, CzComplex seat[4]) {
     CzTrackRow turns, re[4], im[4];
@@ -154,14 +154,14 @@ static inline void cz_track_shapes(const CzTrackMotion *track, const double plac
     }
 }
 
-/* What the modes of one row of blocks get and give: load on direct and alias waves, and their
- * displacement now and half a step ago. */
+/* Load of the modes of one row of blocks on direct and alias waves, and their displacement now and
+ * half a step ago. */
 typedef struct {
     CzTrackRow load, alias_load;
     CzTrackRow direct, alias, direct_past, alias_past;
 } CzTrackWaves;
 
-/* Adds what one group of modes gives. */
+/* Adds the displacement of one group of modes. */
 static inline void cz_track_give(const CzTrackRows *rows, const double *restrict re,
                                  const double *restrict im, bool aliased, CzTrackWaves *waves) {
     CZ_WAVES(i) {
@@ -313,7 +313,7 @@ static inline CzRailPoint cz_track_at(const CzTrackMotion *track, const CzTrackU
     return (CzRailPoint){.z = cz_track_sum(z), .slope = cz_track_sum(slope)};
 }
 
-/* Adds what lies between a wheel and the modes. */
+/* Adds the flexibility between a wheel and the modes. */
 static inline CzRailPoint cz_track_on_spring(const CzTrackFlexibility *flexibility,
                                              double per_spacing, CzRailPoint point,
                                              CzComplex seat) {

@@ -36,7 +36,7 @@ static CzAccount sum_of(CzAccount a, CzAccount b) {
     return (CzAccount){a.received + b.received, a.stored + b.stored};
 }
 
-/* Dissipated as a whole. */
+/* An account of which all is dissipated. */
 static CzAccount lost(double work) {
     return (CzAccount){work, 0.0};
 }
@@ -63,12 +63,12 @@ bool cz_has_element(const CzBatch *batch, size_t lane, int side, CzElementKind k
     }
 }
 
-/* Share of one side in an element that both sides of an interface have in common. */
+/* Share of one side in an element that both sides of an interface share. */
 static double half_of(const CzBatch *batch, size_t lane, int side, CzElementKind kind) {
     return cz_has_element(batch, lane, 1 - side, kind) ? 0.5 : 1.0;
 }
 
-/* Stored as a whole. */
+/* An account of which all is stored. */
 static CzAccount elastic(double stored) {
     return (CzAccount){stored, stored};
 }
@@ -163,7 +163,7 @@ CzAccount cz_chains_account(const CzBatch *batch, size_t lane) {
     return sum;
 }
 
-/* Of an end with mass and of the jaws of a buffer stop. */
+/* Energy stored in an end with mass and in the end stop of a buffer stop. */
 static double stored_in_end(const CzStored *of, int end) {
     return of->end[end].stored + of->guide[end] + of->fold[end] + of->slide;
 }

@@ -3,12 +3,13 @@
 
 #include <math.h>
 
-#define SMALLEST_FORCE 1e4 /* of an interface, as the scale of errors of its chains [N] (ours) */
+#define SMALLEST_FORCE                                                                             \
+    1e4 /* smallest reference force for errors of the chains of an interface [N] (ours) */
 
-/* Velocity that belongs to the accelerations at both ends of the step. The two-step scheme has
- * v = (trapezoidal v) - h/2 (a - a_last): where a force jumps, as at a shear-off, the velocity
- * follows one step later. Work is summed by the trapezoidal rule and is compared with the
- * trapezoidal velocity. The references have no such lag. */
+/* Velocity consistent with the accelerations at both ends of the step. The two-step scheme has v =
+ * (trapezoidal v) - h/2 (a - a_last): where a force jumps, as at a shear-off, the velocity follows
+ * one step later. Work is summed by the trapezoidal rule and is compared with the trapezoidal
+ * velocity. The reference solvers have no such lag. */
 static double settled_velocity(const CzBatch *batch, int dof, size_t lane) {
     const double v = cz_velocity(batch, dof, lane);
     if (batch->n_step == 0 || batch->reference != NULL)

@@ -1,4 +1,5 @@
-/* A collision from first contact to its end, for one design or for several side by side. */
+/* Simulates a collision from first contact to its end, for one design or for several side by
+ * side. */
 #include "simulate/batch.h"
 
 #include <math.h>
@@ -12,12 +13,13 @@
 #include "simulate/run.h"
 
 enum {
-    STEPS_BETWEEN_LOOKS = 32, /* steps of the model between two examinations of energy and end of
-                                 run, so that a run with a halved time step ends at the same time
-                                 (ours) */
-    LANES_THAT_FILL = 96,     /* lanes of a batch that still fit the first caches (measured) */
-    MOST_STEPS = 100000       /* of a reference within one step of the model: it has more only when
-                                 events follow one another without end (ours) */
+    STEPS_BETWEEN_LOOKS =
+        32, /* time steps of the model between two examinations of energy and end criterion, so that
+               a run with a halved time step ends at the same time (ours) */
+    LANES_THAT_FILL =
+        96,             /* lanes of a batch that still fit into the first-level cache (measured) */
+    MOST_STEPS = 100000 /* of a reference within one step of the model: more occur only when events
+                           follow one another endlessly (ours) */
 };
 #define SAMPLING 1e-3 /* of the history for mean decelerations [s] (ours) */
 
@@ -39,8 +41,8 @@ const char *cz_isa_name(void) {
     return cz_kernel(NULL)->isa;
 }
 
-/* Fills all lanes. A design without a valid model is over before it begins, and its lanes get the
- * file's own values. */
+/* Fills all lanes. The run of a design without a valid model has failed at once; its lanes get the
+ * values of the file. */
 static CzStatus fill_designs(CzBatch *batch, const CzVehicle *own, CzError *error) {
     for (int design = 0; design < batch->n_design; ++design) {
         CzProgressOfDesign *progress = &batch->design[design];
@@ -57,7 +59,7 @@ static CzStatus fill_designs(CzBatch *batch, const CzVehicle *own, CzError *erro
     return CZ_OK;
 }
 
-/* A search runs on the receptance track where there is one, a production run on the file's own. */
+/* A search uses the receptance track where there is one, a production run the track of the file. */
 static CzTrack track_of(const CzBatch *batch, CzTrackUse use) {
     const CzTrack own = (CzTrack)batch->model->simulation->track;
     if (own == CZ_TRACK_RIGID)
@@ -67,7 +69,7 @@ static CzTrack track_of(const CzBatch *batch, CzTrackUse use) {
     return use == CZ_TRACK_USE_MODAL ? CZ_TRACK_MODAL : CZ_TRACK_FE;
 }
 
-/* What interfaces are equipped with does not change in a run. */
+/* Stores the equipment of the interfaces, which does not change in a run. */
 static bool list_equipment(CzBatch *batch) {
     const size_t n = (size_t)batch->model->n_car * (size_t)batch->n_design;
     batch->equipment = cz_arena_allocate(&batch->arena, n, sizeof *batch->equipment);
@@ -145,7 +147,7 @@ typedef struct {
     double rest_residual;
 } Recording;
 
-/* Largest residual of the vehicles at rest; NaN when none is a full one. */
+/* Largest residual of the vehicles at rest; NaN when none has running gear. */
 static CzStatus find_rest_residual(CzBatch *batch, double *residual, CzError *error) {
     const int n_car = batch->model->n_car;
     CzRest *rest = cz_arena_allocate(&batch->arena, (size_t)n_car, sizeof *rest);
@@ -192,7 +194,7 @@ static void record_end(Recording *recording) {
     summary->event = cz_watch_events(recording->watch, &summary->n_event);
 }
 
-/* Writes the summaries of the designs that are over and have none yet. */
+/* Writes the summaries of the designs whose run is over and that have none yet. */
 static CzStatus finish(const CzBatch *batch, CzRun **run, bool *written) {
     for (int design = 0; design < batch->n_design; ++design) {
         if (!batch->design[design].over || written[design])
@@ -239,7 +241,7 @@ static void step(CzBatch *batch, const Recording *recording) {
     batch->kernel->step(batch->dynamics, batch->step, first, batch->time);
 }
 
-/* Steps until every design is over. */
+/* Steps until the run of every design is over. */
 static CzStatus march(CzBatch *batch, CzRun **run, Recording *recording, CzError *error) {
     bool *written = cz_arena_allocate(&batch->arena, (size_t)batch->n_design, sizeof *written);
     if (written == NULL)
@@ -279,7 +281,7 @@ static void free_runs(int n_design, CzRun **run) {
     }
 }
 
-/* Designs side by side under one choice of steps. */
+/* Simulates designs side by side with common time steps. */
 static CzStatus simulate_together(const CzModel *model, int n_design,
                                   const CzVehicle *const *vehicles,
                                   const CzSimulateOptions *options, CzRun **run, CzError *error) {

@@ -2,20 +2,20 @@
  *
  *   J omega = sum of the moment impulses,   m v_z = sum of the vertical impulses
  *
- * both over the sources that act on the body itself, to the order of the step.
+ * both over the sources that act on the body itself, with an error of the order of the step.
  */
 #include <math.h>
 
 #include "dynamics/face_moment.h"
 #include "simulate/run.h"
 
-#define SMALLEST_LIFT 1e-4 /* of a wheel that counts as lifting [m] (ours) */
+#define SMALLEST_LIFT 1e-4 /* from this lift on a wheel counts as lifted [m] (ours) */
 
 struct CzBudget {
     int n_car;
-    const CzBlock *block;  /* with the impulses of what the kernel notes (n_block) */
+    const CzBlock *block;  /* with the impulses of the forces that the kernel records (n_block) */
     CzFacePush (*face)[2]; /* impulses of the faces on the rear and the front of a car (n_car) */
-    CzVehicleBudget *kept; /* as it was at the largest lift or pitch (n_car) */
+    CzVehicleBudget *kept; /* budget at the largest lift or pitch (n_car) */
     double *lift, *pitch;  /* largest so far [m], [rad] (n_car) */
 };
 
@@ -71,7 +71,7 @@ CzBudget *cz_budget_begin(CzBatch *batch, CzArena *arena) {
     return budget;
 }
 
-/* Adds what the faces of an interface push, side A on the front of the car behind them. */
+/* Adds the force of the faces of an interface, side A on the front of the car behind them. */
 static void add_faces(CzBudget *budget, const CzBatch *batch, int interface) {
     for (int side = 0; side < 2; ++side) {
         CzFacePush *sum = &budget->face[interface + side][1 - side];
@@ -82,7 +82,7 @@ static void add_faces(CzBudget *budget, const CzBatch *batch, int interface) {
     }
 }
 
-/* Adds what the faces push that do: few of them do at a time. */
+/* Adds the forces of the faces that push, few of them at a time. */
 static void add_pushing_faces(CzBudget *budget, const CzBatch *batch) {
     for (int block = 0; block < batch->dynamics->n_block; ++block) {
         const CzBudgetRows *rows = batch->dynamics->block[block].budget;

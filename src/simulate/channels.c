@@ -7,7 +7,7 @@
 
 #include "base/gravity.h"
 
-/* Walks over the columns of a batch: counts them, lists them, or writes their values. */
+/* Passes over the columns of a batch: counts them, lists them, or writes their values. */
 typedef struct {
     CzChannels *channels;
     const CzBatch *batch;
@@ -51,7 +51,7 @@ static void put_car(Writer *writer, int car) {
     }
 }
 
-/* Strokes of the anti-climbers, and what keeps the faces from climbing. */
+/* Strokes of the anti-climbers, and their resistance to climbing. */
 static void put_face(Writer *writer, int interface) {
     const CzBatch *batch = writer->batch;
     const size_t lane = cz_lane(batch, interface, 0);
@@ -90,7 +90,7 @@ static void put_interface(Writer *writer, int interface) {
         1e-3 * cz_interface_energy(batch, interface, 0));
 }
 
-/* Energy so far by where it is, and the residual of its balance. */
+/* Energy so far by its place, and the residual of its balance. */
 static void put_energy(Writer *writer) {
     const CzBatch *batch = writer->batch;
     const double work = cz_total_work(batch, 0);

@@ -25,7 +25,7 @@ static const Class classes[CZ_N_DEVICE] = {
 #undef CZ_DEVICE
 };
 
-/* Whether the interface has the connection that the element belongs to; a bare wall has no own. */
+/* Whether the side has the connection to which the device belongs; a bare wall has none. */
 static bool has_element(const CzBatch *batch, size_t lane, int car, CzDeviceClass class) {
     const bool full = batch->model->car[car].model == CZ_MODEL_FULL;
     if (class == CZ_DEVICE_END || class == CZ_DEVICE_MASSLESS_END)
@@ -38,13 +38,13 @@ static bool has_element(const CzBatch *batch, size_t lane, int car, CzDeviceClas
     return true;
 }
 
-/* Whether the end of the side is the one that the vehicle's slide is written at. */
+/* Whether the end of this side is the one to which results of the vehicle's slide are assigned. */
 static bool has_slide(const CzBatch *batch, int car, int design, int side) {
     const CzEnd *end = cz_end_at(batch, car, design, side);
     return end->given && end->slide.given;
 }
 
-/* Stroke of a device of a side, or an end, in its lane. */
+/* Usable stroke of a device of a side or an end, in its lane. */
 static double usable_of(const CzBatch *batch, const Class *kind, int which, size_t lane) {
     if (kind->limit == RETRACTION_SPACE)
         return batch->equipment[lane].side[which].retraction_space;
@@ -52,7 +52,7 @@ static double usable_of(const CzBatch *batch, const Class *kind, int which, size
                                        : batch->lanes->curve[kind->of[which]].usable[lane];
 }
 
-/* A device of a side; its usable stroke is infinite when it is not there. */
+/* A device of a side; its usable stroke is infinite when it is missing. */
 static CzDevice device_of(const CzBatch *batch, int interface, int design, int side,
                           CzDeviceClass class) {
     const Class *kind = &classes[class];
@@ -96,7 +96,7 @@ static double stroke_of(const CzBatch *batch, const CzDevice *device) {
 }
 
 /* Adds one device to its element. Where another device follows, travel beyond the stroke is the
- * deflection of a stop. Of a coupler that has sheared off only the retraction space counts. */
+ * deflection of a stop. For a coupler that has sheared off only the retraction space counts. */
 static void judge(const CzBatch *batch, const CzDevice *device, CzElementResult *element) {
     const double used = stroke_of(batch, device) / device->usable;
     element->bottomed_out |= !device->is_followed && used > 1.0;

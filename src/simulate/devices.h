@@ -20,15 +20,15 @@ typedef struct CzDevice {
     int row;
     size_t lane;
     double usable;      /* usable stroke [m] */
-    bool is_reversible; /* returns from its stroke */
-    bool is_followed;   /* another device of the element carries on then */
+    bool is_reversible; /* extends again after its stroke */
+    bool is_followed;   /* another device of the element deflects after it */
 } CzDevice;
 
 /* Devices of side A (0) or B (1) of an interface, in the order of the list; returns how many. */
 int cz_devices_list(const CzBatch *batch, int interface, int design, int side,
                     CzDevice device[CZ_N_DEVICE]);
 
-/* Puts stroke used and bottoming out into the elements of a side. */
+/* Sets the share of stroke used and bottoming out in the elements of a side. */
 void cz_devices_judge(const CzBatch *batch, int interface, int design, int side, int n_element,
                       CzElementResult *element);
 

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "simulate/devices.h"
 
-/* Usable stroke of a curve in a lane; infinite when it has none. */
+/* Usable stroke of a curve in a lane; infinite when it is unlimited. */
 static double usable(const CzBatch *batch, int curve, size_t lane) {
     const double stroke = batch->lanes->curve[curve].usable[lane];
     return stroke < CZ_MISSING ? stroke : INFINITY;
@@ -47,7 +47,7 @@ static const Absorber side_buffers = {
     CZ_ELEMENT_SIDE_BUFFERS, cz_side_account, CZ_MEMORY_PAIR(side_buffers.side, tube_energy),
     CZ_MEMORY_PAIR(side_buffers.side, tube), CZ_EXTREME(side_force)};
 
-/* False where the side has no such absorber, as a bare wall. */
+/* False where the side has no such absorber, for example a bare wall. */
 static bool fill_absorber(const CzBatch *batch, const Absorber *absorber, size_t lane, int side,
                           int car, CzElementResult *result) {
     if (!cz_has_element(batch, lane, side, absorber->kind))
@@ -100,7 +100,7 @@ static double area(const CzBatch *batch, int curve, size_t lane, double from, do
 }
 
 /* Splits the plastic energy of a crush zone among the zones of its stages, in proportion to the
- * areas; what lies beyond the last stage is survival space. */
+ * areas; shortening beyond the last stage is that of survival space. */
 static void split_zones(const CzBatch *batch, const CzEnd *end, int curve, size_t lane,
                         double largest, double energy, double zone_energy[3]) {
     double areas[3] = {0.0, 0.0, 0.0}, from = 0.0;
@@ -119,7 +119,7 @@ static void split_zones(const CzBatch *batch, const CzEnd *end, int curve, size_
         zone_energy[zone] = sum > 0.0 ? fmax(energy, 0.0) * areas[zone] / sum : 0.0;
 }
 
-/* Whether the end of a car is an element: one with a mass has its guidance, one without its crush
+/* Whether the end of a car is an element: with its guidance if it has a mass, else with its crush
  * zone. */
 static bool has_end(const CzBatch *batch, int car, int design, int side) {
     const CzEnd *end = cz_end_at(batch, car, design, side);
@@ -179,7 +179,7 @@ bool cz_outer_end_fill(const CzBatch *batch, int design, int side, CzElementResu
     return true;
 }
 
-/* Fills the zones of an end that fill_end has filled. */
+/* Fills the zones of an end after fill_end. */
 static void fill_zones(const CzBatch *batch, size_t lane, int side, int design,
                        CzElementResult *result) {
     const int car = result->vehicle;
@@ -223,7 +223,8 @@ static int fill_side(const CzBatch *batch, size_t lane, int side, int car, int d
     return (int)(next - element);
 }
 
-/* Energy of an element that counts for its interface: that of a slide goes into the ground. */
+/* Energy of an element that counts for its interface; that of a slide is dissipated in the
+ * ground. */
 static double energy_at_interface(const CzElementResult *element) {
     return element->kind == CZ_ELEMENT_SLIDE ? 0.0 : element->energy;
 }
@@ -300,8 +301,8 @@ void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterf
     }
 }
 
-/* Stroke that the ends took from survival space; NaN when none declares such a zone and none went
- * beyond its stages. */
+/* Shortening of survival space at the ends; NaN when no end declares such a zone and none was
+ * crushed beyond its stages. */
 static double survival_shortening(const CzBatch *batch, int car, int design) {
     double lost = NAN;
     for (int side = 0; side < 2; ++side) {

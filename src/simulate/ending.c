@@ -1,6 +1,6 @@
 /* End of a run: by its end criterion, after its duration, or because it failed.
  *
- * End criterion: no neighbouring cars close in or can meet again faster than CLOSING_SPEED, no
+ * End criterion: no neighbouring cars approach or can meet again faster than CLOSING_SPEED, no
  * interface that can open carries a force, none stores more than CZ_STORED_SHARE of the initial
  * energy, no plastic element crushes, and every wheel is on the rail, all for one body pitch
  * period. A brief run also ends when nothing has crushed for that long, no cars can meet again at
@@ -15,13 +15,13 @@ enum { LOOKS_BETWEEN_ENERGY_CHECKS = 64 }; /* (ours) */
 
 #define CLOSING_SPEED 0.1 /* [m/s] */
 #define MEETING_SHARE 0.4 /* a sixth of the first impact's energy (ours) */
-#define ROUNDING 1e-9     /* of two means that are equal */
+#define ROUNDING 1e-9     /* relative difference of two equal means */
 #define FLOW 1e-6         /* growth of the plastic strokes that counts as crushing [m] (ours) */
 #define LARGEST_IMBALANCE 1e-2 /* of the initial energy */
 #define LARGEST_RESIDUAL 1e-6  /* closure that a chain may leave unbalanced [m] (ours) */
 #define LARGEST_LAW_ERROR                                                                          \
-    1e-2 /* distance of a member from its law, of the largest force: as for the balance, since a   \
-            force that is off by a share does work that is off by no more */
+    1e-2 /* deviation of a member from its law over the largest force: as for the balance, since   \
+            an error of the force causes at most the same error of its work */
 
 static const char *const dof_text[CZ_N_DOF] = {
 #define CZ_DOF_ENTRY(row, axis, dimension, what) [CZ_DOF(row)] = what,
@@ -80,7 +80,7 @@ static bool fails_to_balance(CzBatch *batch, int design) {
     CzProgressOfDesign *progress = &batch->design[design];
     const double residual = fabs(cz_balance_residual(batch, design));
     progress->balance = fmax(progress->balance, residual);
-    if (residual <= LARGEST_IMBALANCE * progress->initial_energy) /* not a number fails too */
+    if (residual <= LARGEST_IMBALANCE * progress->initial_energy) /* NaN fails too */
         return false;
     int worst_car = 0, worst_row = 0;
     double largest = 0.0;
@@ -98,7 +98,7 @@ static bool fails_to_balance(CzBatch *batch, int design) {
     return true;
 }
 
-/* Fails the design when its energies contradict one another: examined at intervals and at the end.
+/* Fails the design when its energies are inconsistent; examined at intervals and at the end.
  */
 static void fail_its_energy_checks(CzBatch *batch, int design) {
     char where[CZ_FAULT_ROOM], what[CZ_FAULT_ROOM];
@@ -108,7 +108,7 @@ static void fail_its_energy_checks(CzBatch *batch, int design) {
         fail(batch, design, where, "energy", what);
 }
 
-/* Fails the design when a series chain was left open or one of its members off its law. */
+/* Fails the design when a series chain was left unbalanced or a member deviates from its law. */
 static bool fails_to_solve(CzBatch *batch, int design) {
     for (int car = 0; car + 1 < batch->model->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
@@ -161,9 +161,9 @@ static bool fails_to_fit(CzBatch *batch, int design) {
     return false;
 }
 
-/* Fails the design when a coupler has shortened by its length from pivot to face: there is no line
- * between two pivots at one place. Cars that climbed before that slide over each other, which is
- * beyond the model's validity anyway. */
+/* Fails the design when a coupler has shortened by its length from pivot to face: two pivots at the
+ * same place define no line. Cars that have climbed slide over each other, which is beyond the
+ * model's validity. */
 static bool fails_to_keep_apart(CzBatch *batch, int design) {
     char what[160];
     for (int car = 0; car + 1 < batch->model->n_car && isnan(batch->design[design].override_time);
@@ -217,8 +217,8 @@ static double rolling_resistance(const CzBatch *batch, int car, int design) {
     return slowed / fmax(mass, 1.0);
 }
 
-/* Speed that a car keeps at least: that of rest where it brakes or is slowed by rolling more than
- * the car behind it, its own where it rolls. */
+/* Lower bound of the later speed of a car: zero where it brakes or its rolling resistance exceeds
+ * that of the car behind it, its present speed where it rolls. */
 static double rest_or_speed(const CzBatch *batch, int car, int design) {
     const size_t lane = cz_lane(batch, car, design);
     const bool is_slowed =
@@ -229,7 +229,7 @@ static double rest_or_speed(const CzBatch *batch, int car, int design) {
     return is_held || is_slowed ? fmin(speed, 0.0) : speed;
 }
 
-/* A car ahead of others: its speed, that which it keeps at least, and its deceleration. */
+/* A car ahead of others: its speed, the lower bound of that, and its deceleration. */
 typedef struct Ahead {
     double speed, kept, slowing;
 } Ahead;
@@ -240,18 +240,18 @@ static Ahead car_ahead(const CzBatch *batch, int car, int design) {
                    cz_car_equipment(batch->lanes, lane).slowing};
 }
 
-/* Speed at which a car can still meet one ahead of it, `room` beyond their closure now: one that is
- * slowed meanwhile comes to rest at most. */
+/* Largest speed at which a car can still meet one ahead of it that is `room` away; the car ahead
+ * may slow down meanwhile, at most to its lower bound. */
 static double speed_at_meeting(double speed, const Ahead *ahead, double room) {
     const double closing = speed - ahead->speed, at_most = speed - ahead->kept;
     if (!(at_most > closing))
         return at_most;
     const double met = sqrt(closing * closing + 2.0 * ahead->slowing * room);
-    return fmin(at_most, met); /* also where that is 0 times infinity */
+    return fmin(at_most, met); /* also for 0 times infinity */
 }
 
-/* Largest speed at which cars can still meet. Neighbours meet again at their largest closure so
- * far at the latest: what is between them has no more room. */
+/* Largest speed at which cars can still meet. Neighbours meet again at the latest at their largest
+ * closure so far: nothing between them is longer. */
 static double meeting_speed(const CzBatch *batch, int design) {
     double largest = 0.0;
     for (int car = 1; car < batch->model->n_car; ++car) {
@@ -270,7 +270,7 @@ static double meeting_speed(const CzBatch *batch, int design) {
     return largest;
 }
 
-/* Whether cars that have parted can meet again, as above. */
+/* Whether cars that have separated can meet again faster than the end criterion allows. */
 static bool can_meet_again(const CzBatch *batch, int design) {
     static const int forces[] = {CZ_MEMORY(coupler.force), CZ_MEMORY(face.force),
                                  CZ_MEMORY(side_buffers.force)};
@@ -286,7 +286,7 @@ static bool can_meet_again(const CzBatch *batch, int design) {
     return false;
 }
 
-/* What the end criterion waits for; NULL when it is met. */
+/* The condition that the end criterion still waits for; NULL when it is met. */
 static const char *awaited(const CzBatch *batch, int design, bool off, bool flows,
                            const CzLoadLeft *left) {
     const bool closes_in = cz_largest_closing_speed(batch, design) > CLOSING_SPEED;
@@ -299,13 +299,13 @@ static const char *awaited(const CzBatch *batch, int design, bool off, bool flow
                                            : NULL;
 }
 
-/* Since when a condition is met; NaN when it is not. */
+/* Time since which a condition is met; NaN when it is not. */
 static double holds_since(bool holds, double since, double now) {
     return !holds ? NAN : isnan(since) ? now : since;
 }
 
 /* Whether a wheel is off the rail now. Notes an override when one was ever higher than its flange;
- * without stops the lift of the wheels says nothing about an override. */
+ * without lift stops the lift of the wheels does not indicate an override. */
 static bool wheels_are_off(CzBatch *batch, int design) {
     CzProgressOfDesign *progress = &batch->design[design];
     bool off = false;

@@ -1,23 +1,24 @@
 /* Conditions on the energies of a run, examined while it runs.
  *
- *   sums      the elements, the running gear, wheels and brakes and the track make up the ledger
+ *   sums      elements, running gear, wheels, brakes and track add up to the ledger
  *   passive   no element has returned more than it received or stores less than 0
  *   springs   the work on the springs of the running gear is the energy that they store
  *   agreed    the work of the bodies on the chains of an interface, or on a crush zone, is the
  *             energy that these received: the integral of the force over the closure
  *
  * What an element has received is the mean force of each step times its stroke, or the mean power
- * times the step. A step that passes a corner of a law is off by up to a half of the force that it
- * rises by times the stroke of the step at the first touch, by an eighth at a later corner; where
- * that stroke is a share s of all, by s^2 / 4 of the energy. An element may seem to return
+ * times the step. In a step that passes a corner of a law the error is up to 1/2 of the rise of the
+ * force times the stroke of the step at first touch, and 1/8 of it at a later corner; if that
+ * stroke is a share s of the total, it is s^2 / 4 of the energy. An element may seem to return
  *
  *   CORNERS * energy + (preload + transition * v h) * v h        v: closing speed of the trains
  *
- * the latter where buffers are, whose preload is met within a step: four corners at a hundredth of
- * the stroke, a touch and four corners more. One that has bottomed out may seem to return STOP of
- * its largest force times its largest stroke, what a step of h = 0.1 ms leaves in a stop of k = 1
- * GN/m before an end mass of m = 1 t: h^2 k / (12 m). Crush zones, guidances and tubes have no such
- * error: they receive what follows from their state, or crush under a force that is never negative.
+ * the second term for buffers, which reach their preload within a step: four corners at a hundredth
+ * of the stroke, a first touch and four more corners. A bottomed-out element may seem to return
+ * STOP times its largest force times its largest stroke, the error of a step of h = 0.1 ms at a
+ * stop of k = 1 GN/m and an end mass of m = 1 t: h^2 k / (12 m). Crush zones, guidances and tubes
+ * have no such error: their energy follows from their state, or they crush under a force that is
+ * never negative.
  */
 #include "simulate/devices.h"
 #include "simulate/run.h"
@@ -36,12 +37,12 @@
  */
 #define AGREED_SHARE 1e-2
 
-/* What contradicts, and where. */
+/* An inconsistency and its place. */
 typedef struct Fault {
     char *where, *what; /* (CZ_FAULT_ROOM) */
 } Fault;
 
-/* Notes a contradiction at an element of a vehicle or an interface; returns true. */
+/* Records an inconsistency at an element of a vehicle or an interface; returns true. */
 __attribute__((format(printf, 4, 5))) static bool
 note(const Fault *fault, const char *name, const char *element, const char *format, ...) {
     va_list values;
@@ -52,9 +53,10 @@ note(const Fault *fault, const char *name, const char *element, const char *form
     return true;
 }
 
-/* Energy that an element of side A (0) or B (1) of an interface may seem to return. */
-static double may_give(const CzBatch *batch, const CzElementResult *element, int interface,
-                       int design, int side) {
+/* Energy that an element of side A (0) or B (1) of an interface may seem to return because of
+ * corners passed within a step. */
+static double apparent_return(const CzBatch *batch, const CzElementResult *element, int interface,
+                              int design, int side) {
     const size_t lane = cz_lane(batch, interface, design);
     const double corners = CORNERS * fmax(element->energy + element->stored, 0.0);
     const double stroke = fabs(batch->closing_speed) * batch->step;
@@ -66,53 +68,55 @@ static double may_give(const CzBatch *batch, const CzElementResult *element, int
 }
 
 /* The same of an element that has bottomed out. */
-static double may_give_at_stop(const CzBatch *batch, CzElementResult *element, int interface,
-                               int design, int side) {
+static double apparent_return_at_stop(const CzBatch *batch, CzElementResult *element, int interface,
+                                      int design, int side) {
     cz_devices_judge(batch, interface, design, side, 1, element);
     return element->bottomed_out ? STOP * element->peak_force * element->stroke : 0.0;
 }
 
 /* Whether an element has returned more than it received, beyond what is allowed, or stores less
  * than 0. */
-static bool gives(const CzBatch *batch, const CzElementResult *element, double allowed,
-                  double rounding, const Fault *fault) {
-    const bool has_given = !(element->energy >= -allowed - rounding); /* not a number, too */
-    if (!has_given && element->stored >= -rounding)
+static bool creates_energy(const CzBatch *batch, const CzElementResult *element, double allowed,
+                           double rounding, const Fault *fault) {
+    const bool has_returned = !(element->energy >= -allowed - rounding); /* true for NaN */
+    if (!has_returned && element->stored >= -rounding)
         return false;
     const char *vehicle = batch->model->car[element->vehicle].name;
-    return has_given ? note(fault, vehicle, cz_element_text(element->kind),
-                            "returned %.4g kJ more than it received", -1e-3 * element->energy)
-                     : note(fault, vehicle, cz_element_text(element->kind),
-                            "stores a negative energy of %.4g kJ", 1e-3 * element->stored);
+    return has_returned ? note(fault, vehicle, cz_element_text(element->kind),
+                               "returned %.4g kJ more than it received", -1e-3 * element->energy)
+                        : note(fault, vehicle, cz_element_text(element->kind),
+                               "stores a negative energy of %.4g kJ", 1e-3 * element->stored);
 }
 
-/* Adds up the elements of all interfaces and outer ends; whether one gives energy. */
-static bool some_element_gives(const CzBatch *batch, int design, double rounding, double *sum,
-                               const Fault *fault) {
+/* Adds up the elements of all interfaces and outer ends; returns whether one of them creates
+ * energy. */
+static bool some_element_creates_energy(const CzBatch *batch, int design, double rounding,
+                                        double *sum, const Fault *fault) {
     CzElementResult element[CZ_MAX_ELEMENTS];
     bool found = false;
     for (int i = 0; i + 1 < batch->model->n_car; ++i) {
         const int n = cz_interface_elements(batch, i, design, element);
         for (int k = 0; k < n; ++k) {
             const int side = element[k].vehicle - i;
-            double allowed = may_give(batch, &element[k], i, design, side);
+            double allowed = apparent_return(batch, &element[k], i, design, side);
             if (element[k].energy < -allowed - rounding)
-                allowed = fmax(allowed, may_give_at_stop(batch, &element[k], i, design, side));
+                allowed =
+                    fmax(allowed, apparent_return_at_stop(batch, &element[k], i, design, side));
             *sum += element[k].energy;
-            found = found || gives(batch, &element[k], allowed, rounding, fault);
+            found = found || creates_energy(batch, &element[k], allowed, rounding, fault);
         }
     }
     for (int side = 0; side < 2; ++side)
         if (cz_outer_end_fill(batch, design, side, element)) {
             *sum += element[0].energy;
-            found = found || gives(batch, element, 0.0, rounding, fault);
+            found = found || creates_energy(batch, element, 0.0, rounding, fault);
         }
     return found;
 }
 
-/* Springs of the running gear against their potentials. */
-static bool running_gear_gives(const CzBatch *batch, int design, double allowed,
-                               const Fault *fault) {
+/* Compares the work on springs of the running gear with their potential energy. */
+static bool running_gear_creates_energy(const CzBatch *batch, int design, double allowed,
+                                        const Fault *fault) {
     static const struct {
         const char *what;
         int row;
@@ -166,8 +170,8 @@ static bool bodies_differ(const CzBatch *batch, int design, double allowed, cons
     return false;
 }
 
-/* What standing on an elastic track may release when wheels come to rest between two seats instead
- * of over one: half the square of a load times the difference of the flexibilities. */
+/* Energy that an elastic track may release when wheels come to rest between two seats instead of
+ * over one: half the square of a load times the difference of the flexibilities. */
 static double released_by_track(const CzBatch *batch, int design) {
     const CzTrackModes *track = batch->model->track;
     if (track == NULL)
@@ -191,8 +195,8 @@ bool cz_energy_checks_fail(const CzBatch *batch, int design, char *where, char *
     const double open = batch->design[design].balance + rounding;
     const Fault fault = {where, what};
     double sum = 0.0;
-    if (some_element_gives(batch, design, rounding, &sum, &fault) ||
-        running_gear_gives(batch, design, SPRINGS_SHARE * energy.initial, &fault) ||
+    if (some_element_creates_energy(batch, design, rounding, &sum, &fault) ||
+        running_gear_creates_energy(batch, design, SPRINGS_SHARE * energy.initial, &fault) ||
         bodies_differ(batch, design, AGREED_SHARE * energy.initial, &fault))
         return true;
     if (!(fabs(sum - energy.absorbers) <= rounding))

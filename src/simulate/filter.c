@@ -5,8 +5,8 @@
  *   b_1 = -2 (w_a^2 - 1) / (...),   b_2 = (-1 + sqrt(2) w_a - w_a^2) / (...)
  *   y_t = a_0 x_t + a_1 x_(t-1) + a_2 x_(t-2) + b_1 y_(t-1) + b_2 y_(t-2)
  *
- * forwards and then backwards. The samples are continued at both ends, turned about the end point,
- * for as long as the filter remembers.
+ * forwards and then backwards. The samples are extended at both ends by point reflection about the
+ * end point, for the memory of the filter.
  */
 #include "simulate/filter.h"
 
@@ -20,7 +20,8 @@ int cz_filter_fits(double class_hz, double step) {
     return step > 0.0 && SAMPLES_PER_CYCLE * class_hz * step <= 1.0 + 1e-9;
 }
 
-/* Tangent of an angle below 1, by its series: the same bits with every mathematics library. */
+/* Tangent of an angle below 1 by its series, so that every mathematics library gives the same
+ * bits. */
 static double tangent(double angle) {
     double sine = 0.0, cosine = 0.0, term = 1.0;
     for (int power = 0; power < 24; power++) {

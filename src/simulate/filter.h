@@ -6,8 +6,8 @@
 
 /* Filters n equally spaced samples as SAE J211-1 describes: a Butterworth low-pass of two poles,
  * run forwards and backwards, so that nothing is shifted in time. `class_hz` is 60 or 180 (CFC),
- * `step` the time between samples [s]. Needs ten samples per cycle of the class, at least; the
- * caller asks cz_filter_fits first. `out` may be `in`. Status: CZ_STATUS_NO_MEMORY. */
+ * `step` the time between samples [s]. Requires at least ten samples per cycle of the class; the
+ * caller checks cz_filter_fits first. `out` may be `in`. Status: CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_filter_cfc(double class_hz, double step, int n, const double *in,
                                      double *out);
 

@@ -5,9 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SHORTEST_CONTACT 0.03 /* a contact window counts from this length on [s] (ours) */
+#define SHORTEST_CONTACT 0.03 /* shortest contact window that counts [s] (ours) */
 #define WINDOW 0.12           /* [s] */
-#define FORCE_FLOOR 0.01      /* of the largest net force: below it there is no contact (ours) */
+#define FORCE_FLOOR                                                                                \
+    0.01 /* of the largest net force: a smaller force counts as no contact (ours)                  \
+          */
 
 CzStatus cz_history_add(CzHistory *history, const CzBatch *batch) {
     const CzDynamics *dynamics = batch->dynamics;
@@ -50,7 +52,7 @@ void cz_history_free(CzHistory *history) {
     history->n_chunk = history->n_sample = 0;
 }
 
-/* Net contact force on a car: what pushes from behind less what pushes from ahead. */
+/* Net contact force on a car: the push from behind less the push from ahead. */
 static double net_force(const CzBatch *batch, int sample, int car, int design) {
     const CzHistory *history = &batch->history;
     const bool first = car == 0, last = car == batch->model->n_car - 1;
@@ -111,7 +113,7 @@ static double largest_change(const double *speed, int n_start, int length) {
 /* Largest |change of speed| / time over all windows of at least WINDOW. A longest-mean window is
  * shorter than twice the smallest length, because a longer one splits into two of which one has at
  * least its mean. `speed` holds the samples of one car. Windows in which the speed hardly changes
- * are skipped as a group: most of a run is no collision. */
+ * are skipped in groups, because they are most of a run. */
 static double window_mean(const double *speed, int n_sample, double step, double window[2]) {
     enum { AT_ONCE = 64 };
     const int shortest = (int)ceil(WINDOW / step - 1e-9);

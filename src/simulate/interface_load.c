@@ -16,10 +16,10 @@
 
 #define SMALLEST_FORCE 1.0 /* [N]: rounding of a chain's balance and no more (ours) */
 #define STILL_PLACE 1e-4   /* [m] (ours) */
-#define STILL_TIME 0.2     /* a force of 100 N would open 20 t by more than that [s] (ours) */
+#define STILL_TIME 0.2 /* in this time a force of 100 N moves 20 t by more than that [s] (ours) */
 #define CLOSURE_GROWS 1e-6 /* [m] (ours) */
 #define CYCLE_TIME                                                                                 \
-    1.0 /* of heavy wagons on soft draw gear, which dissipate while they push [s]                  \
+    1.0 /* oscillation of heavy wagons on soft draw gear, which dissipate under compression [s]    \
            (ours) */
 
 struct CzInterfaceLoad {
@@ -64,7 +64,7 @@ static bool is_to_be_unloaded(CzInterfaceLoad *load, double largest, bool stores
     return load->to_be_unloaded;
 }
 
-/* Kinetic energy of two cars about their common motion. */
+/* Kinetic energy of two cars relative to their common motion. */
 static double relative_energy(const CzBatch *batch, int interface, int design) {
     const size_t lane = cz_lane(batch, interface, design);
     const double inverse =
@@ -108,6 +108,6 @@ CzLoadLeft cz_interface_loads_look(const CzBatch *batch, int design) {
     }
     if (oscillating > fmax(least, left.energy) && still_dissipates(batch, design))
         left.energy = oscillating;
-    left.stores = !(left.energy <= least); /* also when it is no number */
+    left.stores = !(left.energy <= least); /* also for NaN */
     return left;
 }

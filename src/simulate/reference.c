@@ -10,8 +10,9 @@
 
 #define LONGEST_STEP 0.5 /* of the model's step, so that peaks are seen (ours) */
 #define SHORTEST_STEP                                                                              \
-    1e-9 /* of the laws: a state on the commit itself is taken as this far on [s] */
-#define VELOCITY_SCALE 1.0      /* [m/s, rad/s] (ours) */
+    1e-9                   /* smallest step of the laws, for states at the time of the commit [s]  \
+                            */
+#define VELOCITY_SCALE 1.0 /* [m/s, rad/s] (ours) */
 #define DISPLACEMENT_SCALE 0.01 /* [m, rad] (ours) */
 #define TRACK_SCALE 10.0  /* of a mode's state, that moves a wheel by 10 mm [sqrt(J s)] (ours) */
 #define IMPULSE_SCALE 1e3 /* of external forces [N s] (ours) */
@@ -28,11 +29,11 @@ typedef struct Drop {
     const CzBlock *block;
     int side;    /* of the interface */
     size_t lane; /* within the block */
-    bool over;   /* it has been released, and its function is 1 from then on */
+    bool over;   /* it has been released; its function is 1 from then on */
 } Drop;
 
 struct CzReference {
-    CzOde ode; /* first: the solver hands it back */
+    CzOde ode; /* must be first: the solver passes its address back */
     CzBatch *batch;
     CzSolver *solver;
     size_t n_place;
@@ -55,7 +56,7 @@ static bool moves(const CzBatch *batch, int row, size_t lane) {
            (is_end && cz_car_equipment(lanes, lane).has_slaved_ends);
 }
 
-/* Lists the places of all that moves and of the impulse of each car, with their allowed errors. */
+/* Lists the degrees of freedom that move and the impulse of each car, with their allowed errors. */
 static size_t list_places(const CzBatch *batch, Place *place, double *allowed, double tolerance) {
     size_t n = 0;
     for (int car = 0; car < batch->model->n_car; car++) {
@@ -103,7 +104,7 @@ static void set_state(const CzReference *reference, const double *state) {
     }
 }
 
-/* Evaluates the laws at a state; twice the same state costs one evaluation. */
+/* Evaluates the laws at a state, unless it is the state of the last evaluation. */
 static void evaluate(CzReference *reference, double time, const double *state) {
     const size_t size = reference->ode.n_unknown * sizeof *state;
     if (time == reference->evaluated && memcmp(state, reference->at, size) == 0)
@@ -229,7 +230,7 @@ CzStatus cz_reference_step(CzReference *reference, double until, CzError *error)
     evaluate(reference, step.time, step.state);
     batch->kernel->commit(batch->dynamics, step.time - reference->committed, step.time);
     reference->committed = batch->time = step.time;
-    reference->evaluated = NAN; /* the same state answers for another step now */
+    reference->evaluated = NAN; /* the same state now belongs to another step */
     reference->n_step++;
     if (!step.at_drop)
         return CZ_OK;

@@ -4,8 +4,8 @@
  *   y = (x, v) of every degree of freedom that moves, y' = (v, a), and the modes of the track
  *
  * A trial state is evaluated from the committed memory, with the time since the commit as the step
- * of the laws; memory is committed where a step is accepted. The laws answer by return mapping, so
- * force and next memory are continuous there. What depends on that step (creep, hydraulic stroke,
+ * of the laws; memory is committed when a step is accepted. The laws use return mapping, so force
+ * and next memory are continuous in the state. What depends on that step (creep, hydraulic stroke,
  * crush rate) is advanced implicitly over it and converges as steps shrink, to the same limit as
  * under the fixed-step scheme.
  */
@@ -18,9 +18,9 @@
 typedef struct CzReference CzReference;
 
 /* A reference for a batch of one design that is at t = 0, allocated in its arena; free with
- * cz_reference_free. `tolerance` scales what cz_reference_step allows as local error: 1 m/s and
- * 1 rad/s times it in velocities, 10 mm and 10 mrad in displacements. A modal track was laid for a
- * step of 0. Statuses: CZ_OK, CZ_STATUS_INPUT for a track that it does not know,
+ * cz_reference_free. `tolerance` scales what cz_reference_step allows as local error: 1 m/s and 1
+ * rad/s times it in velocities, 10 mm and 10 mrad in displacements. A modal track was laid for a
+ * step of 0. Statuses: CZ_OK, CZ_STATUS_INPUT for a track that it does not support,
  * CZ_STATUS_NO_MEMORY, CZ_STATUS_RUN_FAILED. */
 CZ_MUST_CHECK CzStatus cz_reference_create(CzBatch *batch, CzMethod method, double tolerance,
                                            CzReference **reference, CzError *error);

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Every member is a number. */
+/* All members are NaN. */
 static CzRest no_rest(void) {
     CzRest rest;
     for (size_t i = 0; i < sizeof rest / sizeof(double); i++)
@@ -31,7 +31,7 @@ static CzRest rest_of(const CzEquilibrium *found) {
     return rest;
 }
 
-/* Names the vehicle of a failure, and the place of its mass. */
+/* Names the vehicle of a failure, and the line of its mass in the file. */
 static void place_at_mass(const CzModel *model, int vehicle, CzError *error) {
     int n_vehicle;
     char sentence[sizeof error->message];

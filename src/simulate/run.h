@@ -52,7 +52,8 @@ typedef struct CzProgressOfDesign {
     double override_time; /* NaN until it happens */
 } CzProgressOfDesign;
 
-/* What the track under the cars of a block stores, found for all of them when one is asked for. */
+/* Energy stored in the track under the cars of a block, computed for all of them when one is
+ * requested. */
 typedef struct CzTrackAccount {
     long taken;   /* as CzProgressOfDesign.accounts_taken */
     CzRow stored; /* [J] */
@@ -70,7 +71,7 @@ typedef struct CzBatch {
     CzTrackAccount *in_track;         /* by block */
     const CzVehicle *const *vehicles; /* (n_design) */
     int n_design;
-    bool brief; /* end once settled */
+    bool brief; /* end as soon as the results are final */
     CzIntegrator integrator;
     struct CzReference *reference; /* NULL under the fixed-step scheme */
     double closing_speed;          /* of the trains at t = 0 [m/s] */
@@ -137,7 +138,7 @@ void cz_history_free(CzHistory *history);
 CZ_MUST_CHECK CzStatus cz_history_decelerations(const CzBatch *batch, int car, int design,
                                                 CzVehicleResult *result);
 
-/* accounts.c: takes the accounts of a design now, for all who read them in this step. */
+/* accounts.c: updates the accounts of a design for this step. */
 void cz_accounts_take(const CzBatch *batch, int design);
 /* Of the accounts taken last: energy that an element has received, and the part that it stores [J].
  * The lane is the interface's, or the car's for what belongs to one car. */
@@ -158,19 +159,19 @@ CzAccount cz_crush_account(const CzBatch *batch, size_t lane, int end);
 CzAccount cz_guide_account(const CzBatch *batch, size_t lane, int end);
 CzAccount cz_end_mass_account(const CzBatch *batch, size_t lane, int end);
 CzAccount cz_massless_account(const CzBatch *batch, size_t lane, int side);
-/* All series chains of an interface, without regard to whom they belong. */
+/* All series chains of an interface together. */
 CzAccount cz_chains_account(const CzBatch *batch, size_t lane);
 /* Elastic energy in the elements of an interface [J]. */
 double cz_interface_stored(const CzBatch *batch, int interface, int design);
-/* What the track under a car stores now [J]. */
+/* Energy stored in the track under a car now [J]. */
 double cz_track_account(const CzBatch *batch, size_t lane);
 /* Springs of the running gear and the wheels' contact. */
 CzAccount cz_gear_account(const CzBatch *batch, size_t lane);
-/* What the sliders and stops of a lane store; their powers are in the ledger. */
+/* Energy stored in the sliders and stops of a lane; their powers are in the ledger. */
 CzAccount cz_springs_account(const CzBatch *batch, size_t lane);
 
-/* energy_checks.c: whether the energies of a design contradict one another, with the place and the
- * contradiction. */
+/* energy_checks.c: whether the energies of a design are inconsistent, with the place and the
+ * inconsistency. */
 enum { CZ_FAULT_ROOM = 96 };
 bool cz_energy_checks_fail(const CzBatch *batch, int design, char *where, char *what);
 
@@ -182,15 +183,15 @@ double cz_balance_residual(const CzBatch *batch, int design);
 /* Work that all laws have received; classes as in ledger.def. */
 double cz_total_work(const CzBatch *batch, int design);
 double cz_wheel_rail_work(const CzBatch *batch, int design);
-/* Mean speed of the vehicles of a train that can move, by mass. */
+/* Mean speed of the movable vehicles of a train, weighted by mass. */
 double cz_train_speed(const CzBatch *batch, int train, int design);
 double cz_momentum_error(const CzBatch *batch, int design);
-/* Largest distance of a member of the interface's series chains from its law, over the largest
+/* Largest deviation of a member of the interface's series chains from its law, over the largest
  * force of the interface. */
 double cz_law_error(const CzBatch *batch, size_t lane);
 /* interface_load.c: forces and energies of the interfaces of a design that can still change the
  * motion. */
-#define CZ_STORED_SHARE 1e-3 /* of the initial energy: less changes no speed (ours) */
+#define CZ_STORED_SHARE 1e-3 /* of the initial energy: less does not change the results (ours) */
 typedef struct CzInterfaceLoad CzInterfaceLoad;
 typedef struct CzLoadLeft {
     bool force;    /* an interface that can open carries one */
@@ -208,7 +209,7 @@ bool cz_ending_look(CzBatch *batch);
 /* summary.c */
 CZ_MUST_CHECK CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run);
 CzEnergy cz_energy_fill(const CzBatch *batch, int design);
-/* The same where the total work is known. */
+/* The same with the total work given. */
 CzEnergy cz_energy_of(const CzBatch *batch, int design, double work);
 /* Energy dissipated in the trains and at their wheels [J]: cheaper, as that in the track is not
  * summed up. */
@@ -216,11 +217,11 @@ double cz_dissipated_above_track(const CzBatch *batch, int design);
 
 /* elements.c */
 void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterfaceResult *result);
-/* Elements of an interface with their energies, unnamed and unjudged; returns how many. */
+/* Elements of an interface with their energies, without names and device results; returns how
+ * many. */
 int cz_interface_elements(const CzBatch *batch, int interface, int design,
                           CzElementResult element[CZ_MAX_ELEMENTS]);
-/* The end that faces no other vehicle, at the rear (1) or the front (0) of all; false where it has
- * no mass. */
+/* The outer end at the front (0) or the rear (1) of all vehicles; false where it has no mass. */
 bool cz_outer_end_fill(const CzBatch *batch, int design, int side, CzElementResult *result);
 /* What the elements of an interface have dissipated so far [J], as cz_interface_fill reports it. */
 double cz_interface_energy(const CzBatch *batch, int interface, int design);
@@ -234,12 +235,13 @@ CZ_MUST_CHECK CzStatus cz_rest_of_cars(const CzModel *model, const CzLanes *lane
 /* channels.c: a single design only. */
 CZ_MUST_CHECK CzStatus cz_channels_begin(CzChannels *channels, const CzBatch *batch);
 CZ_MUST_CHECK CzStatus cz_channels_add(CzChannels *channels, const CzBatch *batch);
-/* Blanks the energies of a run beyond the validity of the model; the error of their balance stays.
+/* Sets the energies of a run beyond the validity of the model to NaN; the error of their balance
+ * remains.
  */
 void cz_channels_blank_totals(CzChannels *channels, double from);
 void cz_channels_free(CzChannels *channels);
 
-/* budget.c: impulses that turn and lift the bodies of a single design. */
+/* budget.c: impulses that pitch and lift the bodies of a single design. */
 typedef struct CzBudget CzBudget;
 /* NULL when there is no memory. */
 CzBudget *cz_budget_begin(CzBatch *batch, CzArena *arena);

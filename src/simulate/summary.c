@@ -17,7 +17,7 @@ static double work_of(const CzBatch *batch, int design, int row) {
     return work;
 }
 
-/* Elastic energy in elements that store and lose. */
+/* Elastic energy in elements that store and dissipate. */
 static double stored_in_mixed(const CzBatch *batch, int design) {
     double stored = 0.0;
     for (int car = 0; car < batch->model->n_car; ++car) {
@@ -84,13 +84,13 @@ static double plastic_energy(const CzBatch *batch, int design) {
     return 0.5 * reduced * dv * dv;
 }
 
-/* Share of an energy in the dissipated one; NaN where that is next to 0. */
+/* Ratio of an energy to the dissipated energy; NaN where that is nearly 0. */
 static double share_of(double part, double dissipated) {
     const double nothing = 100; /* [J] */
     return dissipated > nothing ? part / dissipated : NAN;
 }
 
-/* Series chains: largest distance of a member from its law, and how often a force was searched for.
+/* Series chains: largest deviation of a member from its law, and number of searches.
  */
 static void fill_chains(const CzBatch *batch, int design, CzRunSummary *summary) {
     double searched = 0.0;
@@ -170,7 +170,7 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
     summary->energy = cz_energy_fill(batch, design);
     summary->momentum_error = cz_momentum_error(batch, design);
     fill_chains(batch, design, summary);
-    summary->rest_residual = NAN; /* known of recorded runs */
+    summary->rest_residual = NAN; /* only for recorded runs */
     summary->closing_speed = cz_largest_closing_speed(batch, design);
     const double wheel_rail =
         isnan(progress->wheel_rail) ? summary->energy.wheel_rail : progress->wheel_rail;

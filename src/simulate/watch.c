@@ -1,4 +1,4 @@
-/* Events of a single design: the first time that something passes its threshold. */
+/* Events of a single design: the first time that a value passes its threshold. */
 #include "simulate/devices.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ typedef struct {
     Source source;
     int row;       /* of the source; bogie for stops */
     size_t offset; /* from the block, or from its memory [bytes] */
-    double sign;   /* of the row, so that what is watched grows */
+    double sign;   /* of the row, so that the watched value increases */
 } Guard;
 
 typedef struct {
@@ -36,7 +36,7 @@ struct CzWatch {
 
 enum { MOST_PER_CAR = 64, MOST_GUARDS = 64 };
 
-/* What a row is, as an offset. */
+/* The guard of a row: its offset and sign. */
 static Guard guard_of(Source source, int row) {
     const size_t rows = (size_t)row * sizeof(CzRow);
     switch (source) {
@@ -52,7 +52,7 @@ static Guard guard_of(Source source, int row) {
     return (Guard){source, row, offsetof(CzBlock, published.secondary[row].compression), 1.0};
 }
 
-/* The guard of a row, which is listed when it is new. */
+/* Index of the guard of a row, which is added when it is new. */
 static int find_guard(CzWatch *list, Source source, int row) {
     int k = 0;
     while (k < list->n_guard && (list->guard[k].source != source || list->guard[k].row != row))
@@ -79,8 +79,8 @@ static double first_stage(const CzBatch *batch, int curve, size_t lane) {
     return lanes->n_breakpoint > 1 ? lanes->at[lanes->stride + lane] : INFINITY;
 }
 
-/* Strokes that are exhausted, but not of a reversible device that another one follows: that happens
- * in service. */
+/* Watches exhausted strokes, except of a reversible device that is followed by another one, since
+ * that happens in service. */
 static void watch_devices(CzWatch *list, const CzBatch *batch, int interface, int side) {
     CzDevice device[CZ_N_DEVICE];
     const int n = cz_devices_list(batch, interface, 0, side, device);
@@ -208,7 +208,7 @@ static const double *row_at(const CzBlock *block, const Guard *guard) {
     return (const double *)((const char *)base + guard->offset);
 }
 
-/* Whether some lane of a block is beyond one of its limits: all of them at once cost little more
+/* Whether some lane of a block is beyond one of its limits: checking all of them costs little more
  * than a single value. */
 static bool is_beyond(const CzWatch *list, const CzBlock *block, const CzRow *limit) {
     CzRow n_beyond = {0.0};
@@ -225,7 +225,7 @@ static bool is_beyond(const CzWatch *list, const CzBlock *block, const CzRow *li
     return sum > 0.0;
 }
 
-/* Makes events of the values that passed their threshold. */
+/* Adds events for the values that have passed their threshold. */
 static void list_events(CzWatch *list, const CzBatch *batch) {
     for (int i = 0; i < list->n_watched; ++i) {
         Watched *watched = &list->watched[i];

@@ -66,8 +66,8 @@ static CzStatus find_long(CzCommand command, const char *name, size_t n, int *op
                           CzError *error) {
     char typed[64];
     CzSuggestion suggestion = {0};
-    const char *longer = NULL;   /* an option that begins with what was typed */
-    const char *of_other = NULL; /* an option of another command that it is */
+    const char *longer = NULL;   /* an option that begins with the typed name */
+    const char *of_other = NULL; /* an option of that name, of another command */
     snprintf(typed, sizeof typed, "%.*s", (int)n, name);
     for (int i = 0; i < CZ_N_OPTION; i++) {
         const char *known = cz_options[i].name;
@@ -75,7 +75,7 @@ static CzStatus find_long(CzCommand command, const char *name, size_t n, int *op
             *option = i;
             if (cz_command_takes(command, i))
                 return CZ_OK;
-            of_other = known; /* one name may be several options */
+            of_other = known; /* several options may have the same name */
         }
         if (!cz_command_takes(command, i))
             continue;
@@ -108,7 +108,7 @@ static CzStatus find_letter(CzCommand command, char letter, int *option, CzError
                    cz_commands[command].name, letter, cz_commands[command].name);
 }
 
-/* Keeps an option; `value` is what stood in the same word after it, NULL when nothing did. */
+/* Keeps an option; `value` is the text after it in the same word, NULL when there is none. */
 static CzStatus keep_option(Reader *reader, int option, const char *value) {
     const CzOptionInfo *info = &cz_options[option];
     CzArguments *arguments = reader->arguments;
@@ -168,7 +168,7 @@ static CzStatus read_whole(const CzArguments *arguments, CzOption option, long l
     return CZ_OK;
 }
 
-/* One of the words, with | between; *index is left alone when the option is absent. */
+/* Reads one of the words, separated by |; *index is unchanged when the option is absent. */
 static CzStatus read_choice(const CzArguments *arguments, CzOption option, const char *words,
                             int *index, CzError *error) {
     const char *text = arguments->text[option];
@@ -188,7 +188,7 @@ static CzStatus read_choice(const CzArguments *arguments, CzOption option, const
                    cz_options[option].name, text, known);
 }
 
-/* Values of options as what they mean. */
+/* Interprets the values of options. */
 static CzStatus read_values(CzArguments *arguments, CzError *error) {
     static const CzOption by_words[] = {CZ_OPTION_COLOR, CZ_OPTION_INTEGRATOR, CZ_OPTION_BASIS,
                                         CZ_OPTION_FLIP, CZ_OPTION_COMPLETION};
@@ -212,7 +212,7 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
     arguments->n_job = (int)n_job;
     arguments->n_stage = (int)n_stage;
     arguments->csv_decimal = ".,"[decimal];
-    /* Who writes decimal commas parts the fields by semicolons. */
+    /* With decimal commas the fields are separated by semicolons. */
     const bool implied = arguments->text[CZ_OPTION_CSV_SEP] == NULL && decimal == 1;
     arguments->csv_separator = ",;\t"[implied ? 1 : separator];
     if (arguments->csv_separator == arguments->csv_decimal)
@@ -227,8 +227,8 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
     return CZ_OK;
 }
 
-/* Names of files and folders are texts like any other (base/text.h): what is no text cannot be
- * reported in a message, a log or a document. */
+/* Names of files and folders are texts like any other (base/text.h): other bytes cannot be reported
+ * in a message, a log or a document. */
 static CzStatus check_file_name(const char *name, CzError *error) {
     char what[CZ_FAULT_ROOM];
     size_t at;

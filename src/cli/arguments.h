@@ -27,9 +27,9 @@ typedef struct CzCommandInfo {
 } CzCommandInfo;
 
 typedef struct CzOptionInfo {
-    const char *name, *value, *doc; /* value: what follows it, NULL for a flag */
+    const char *name, *value, *doc; /* value: name of its argument, NULL for a flag */
     char letter;                    /* 0 when it has none */
-    unsigned commands;              /* bit 1 << CzCommand for each command that takes it */
+    unsigned commands;              /* bit 1 << CzCommand for each command that has it */
 } CzOptionInfo;
 
 extern const CzCommandInfo cz_commands[CZ_N_COMMAND];
@@ -39,7 +39,7 @@ typedef enum CzColour { CZ_COLOUR_AUTO, CZ_COLOUR_ALWAYS, CZ_COLOUR_NEVER } CzCo
 
 /* What was requested. Texts are borrowed from argv; arrays are owned. */
 typedef struct CzArguments {
-    bool nothing; /* no command at all */
+    bool nothing; /* no command given */
     CzCommand command;
     const char *text[CZ_N_OPTION]; /* value of each option, NULL when absent; "" for a flag */
     const char **operand;          /* file names, topic or template (n_operand) */
@@ -53,10 +53,10 @@ typedef struct CzArguments {
     const char **check; /* names (n_check) */
     int n_check;
     char time_step[64]; /* room for the setting that --time-step-ms represents */
-    int n_job;          /* 0: as many as there are processors */
-    long evaluations;   /* 0: the file's */
-    long seed;          /* -1: the file's */
-    long rounds;        /* 0: as many as by default */
+    int n_job;          /* 0: number of processors */
+    long evaluations;   /* 0: that of the file */
+    long seed;          /* -1: that of the file */
+    long rounds;        /* 0: the default */
     int n_stage;        /* -1: as many as the curve requires */
     int basis, flip;    /* words of these options, counted from 0; -1: not given */
     CzIntegrator integrator;

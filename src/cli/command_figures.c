@@ -1,4 +1,4 @@
-/* `report`, `plot` and `compare`: results looked at again. */
+/* `report`, `plot` and `compare`: figures and pages of existing results. */
 #include "cli/command.h"
 #include "cli/messages.h"
 #include "cli/result.h"
@@ -8,7 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* A folder that was about to be replaced when its process died is looked at all the same. */
+/* Restores a folder that a process was replacing when it died. */
 static void restore(const CzArguments *arguments) {
     for (int i = 0; i < arguments->n_operand; i++)
         if (cz_report_restore_folder(arguments->operand[i]))
@@ -23,7 +23,7 @@ static CzStatus write_page(const void *report, FILE *stream, CzError *error) {
     return cz_report_write_page(report, stream, error);
 }
 
-/* Where the report of a folder goes. */
+/* Path of the report of a folder. */
 static void find_report(const CzArguments *arguments, char path[4096]) {
     const char *folder = arguments->operand[0], *given = arguments->text[CZ_OPTION_OUTPUT];
     struct stat found;
@@ -34,7 +34,7 @@ static void find_report(const CzArguments *arguments, char path[4096]) {
         snprintf(path, 4096, "%.4000s%sreport.html", is_folder ? folder : "", is_folder ? "/" : "");
 }
 
-/* That of a search's best design alone goes to a file of its own. */
+/* The report of the best design of a search alone has a separate file. */
 int cz_command_report(const CzArguments *arguments) {
     char path[4096];
     CzResult result;

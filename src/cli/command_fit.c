@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static CzStatus take_kind(const CzArguments *arguments, CzFitOptions *options, CzError *error) {
+static CzStatus read_kind(const CzArguments *arguments, CzFitOptions *options, CzError *error) {
     const char *word = arguments->text[CZ_OPTION_AS];
     CzSuggestion suggestion = {0};
     for (int kind = 0; word != NULL && kind < CZ_N_FIT; kind++) {
@@ -28,8 +28,8 @@ static CzStatus take_kind(const CzArguments *arguments, CzFitOptions *options, C
     return CZ_STATUS_INPUT;
 }
 
-/* Reads the number of an option that is there. */
-static CzStatus take_number(const CzArguments *arguments, CzOption option, double *number,
+/* Reads the number of an option, if it is given. */
+static CzStatus read_number(const CzArguments *arguments, CzOption option, double *number,
                             const char *help, CzError *error) {
     const char *text = arguments->text[option];
     if (text == NULL || cz_number_parse(text, number) == NULL)
@@ -38,7 +38,7 @@ static CzStatus take_number(const CzArguments *arguments, CzOption option, doubl
                    cz_options[option].name, text, help);
 }
 
-static CzStatus take_zero(const CzArguments *arguments, CzFitOptions *options, CzError *error) {
+static CzStatus read_zero(const CzArguments *arguments, CzFitOptions *options, CzError *error) {
     const char *zero = arguments->text[CZ_OPTION_ZERO];
     if (zero == NULL)
         return CZ_OK;
@@ -48,16 +48,16 @@ static CzStatus take_zero(const CzArguments *arguments, CzFitOptions *options, C
                                  : CZ_FIT_ZERO_STROKE;
     if (at_start || at_contact)
         return CZ_OK;
-    return take_number(arguments, CZ_OPTION_ZERO, &options->zero_stroke,
+    return read_number(arguments, CZ_OPTION_ZERO, &options->zero_stroke,
                        "--zero takes start, contact or a stroke in the unit of the file", error);
 }
 
-/* Which part of the curve counts, with which signs and from which zero. */
-static CzStatus take_shape(const CzArguments *arguments, CzFitOptions *options, CzError *error) {
-    CZ_TRY(take_zero(arguments, options, error));
-    CZ_TRY(take_number(arguments, CZ_OPTION_SCALE, &options->scale, "", error));
-    CZ_TRY(take_number(arguments, CZ_OPTION_FROM, &options->from, "", error));
-    CZ_TRY(take_number(arguments, CZ_OPTION_TO, &options->to, "", error));
+/* Reads the part of the curve to fit, its signs and its zero. */
+static CzStatus read_shape(const CzArguments *arguments, CzFitOptions *options, CzError *error) {
+    CZ_TRY(read_zero(arguments, options, error));
+    CZ_TRY(read_number(arguments, CZ_OPTION_SCALE, &options->scale, "", error));
+    CZ_TRY(read_number(arguments, CZ_OPTION_FROM, &options->from, "", error));
+    CZ_TRY(read_number(arguments, CZ_OPTION_TO, &options->to, "", error));
     if (!(options->scale > 0.0))
         return cz_fail(error, CZ_STATUS_INPUT,
                        "'--scale' must be greater than 0" CZ_HELP "--flip force changes the sign");
@@ -66,8 +66,8 @@ static CzStatus take_shape(const CzArguments *arguments, CzFitOptions *options, 
     return CZ_OK;
 }
 
-static CzStatus take_options(const CzArguments *arguments, CzFitOptions *options, CzError *error) {
-    CZ_TRY(take_kind(arguments, options, error));
+static CzStatus read_options(const CzArguments *arguments, CzFitOptions *options, CzError *error) {
+    CZ_TRY(read_kind(arguments, options, error));
     options->is_dynamic = arguments->basis == 1;
     if (arguments->basis < 0)
         return cz_fail(error, CZ_STATUS_INPUT,
@@ -84,15 +84,15 @@ static CzStatus take_options(const CzArguments *arguments, CzFitOptions *options
         options->separator = arguments->csv_separator;
     if (arguments->text[CZ_OPTION_CSV_DECIMAL] != NULL)
         options->decimal = arguments->csv_decimal;
-    return take_shape(arguments, options, error);
+    return read_shape(arguments, options, error);
 }
 
 static CzStatus write_figure(const void *data, FILE *stream, CzError *error) {
     return cz_report_write_fit_figure(data, stream, error);
 }
 
-/* Says on standard error what is doubtful, or why nothing was written. */
-static void tell_doubts(const CzFit *fit) {
+/* Reports doubts about the law on standard error, or why nothing was written. */
+static void report_doubts(const CzFit *fit) {
     const CzFitSummary *summary = cz_fit_summary(fit);
     for (int i = 0; i < summary->n_doubt; i++)
         fprintf(stderr, "%s: %s: %s\n", summary->file,
@@ -115,7 +115,7 @@ static int write_fit(const CzArguments *arguments, const CzFit *fit) {
         if (cz_report_write_json(&report, stdout, &error) != CZ_OK)
             return cz_tell_error(arguments, &error);
     } else {
-        tell_doubts(fit);
+        report_doubts(fit);
         cz_fit_write_yaml(fit, stdout);
     }
     if (svg == NULL)
@@ -138,7 +138,7 @@ int cz_command_fit(const CzArguments *arguments) {
     const int unwritable = cz_result_check(arguments, NULL, svg);
     if (unwritable != 0)
         return unwritable;
-    if (take_options(arguments, &options, &error) != CZ_OK ||
+    if (read_options(arguments, &options, &error) != CZ_OK ||
         cz_fit_read(arguments->operand[0], &options, &fit, &error) != CZ_OK)
         return cz_tell_error(arguments, &error);
     const int code = write_fit(arguments, fit);

@@ -31,7 +31,7 @@ static CzStatus write_new(const char *path, const char *text, CzError *error) {
         if (fclose(stream) == 0 && is_written)
             return CZ_OK;
         why = why != 0 ? why : errno;
-        (void)remove(path); /* it is ours: it was not there before */
+        (void)remove(path); /* created above, so it is not a file of the user */
     }
     if (why == EEXIST)
         return cz_fail(error, CZ_STATUS_OUTPUT,

@@ -41,8 +41,8 @@ static int judge(const CzOutcome *outcome) {
     return cz_status_exit_code(CZ_STATUS_INTERNAL);
 }
 
-/* The folder comes first: whatever happens to the terminal, the best design is kept. */
-static int answer(CzSession *session, const CzOutcome *outcome, const char *folder) {
+/* The folder is written first, so that the best design is kept even if the terminal fails. */
+static int finish(CzSession *session, const CzOutcome *outcome, const char *folder) {
     const CzArguments *arguments = session->arguments;
     CzReport report = cz_session_report(session, CZ_REPORT_SEARCH, outcome->wall_s);
     report.outcome = outcome;
@@ -69,7 +69,7 @@ int cz_command_optimise(const CzArguments *arguments) {
     if (code == 0) {
         const CzStatus status = search(&session, &outcome, &error);
         if (outcome != NULL)
-            code = answer(&session, outcome, folder);
+            code = finish(&session, outcome, folder);
         if (status != CZ_OK && outcome != NULL) {
             cz_print_mistake(arguments, "error", NULL, &error);
             code = cz_status_exit_code(status);

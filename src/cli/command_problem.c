@@ -10,28 +10,29 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Interfaces that have been reported, by name; several scenarios have the same ones. */
-typedef struct Told {
+/* Names of interfaces that have been reported, since several scenarios have the same ones. */
+typedef struct Printed {
     char names[8192]; /* each between line ends */
-} Told;
+} Printed;
 
-static bool is_told(Told *told, const char *name) {
+static bool was_printed(Printed *printed, const char *name) {
     char line[CZ_INTERFACE_ROOM + 2];
     snprintf(line, sizeof line, "\n%s\n", name);
-    if (strstr(told->names, line) != NULL)
+    if (strstr(printed->names, line) != NULL)
         return true;
-    const size_t used = strlen(told->names);
-    snprintf(told->names + used, sizeof told->names - used, "%s%s\n", used == 0 ? "\n" : "", name);
+    const size_t used = strlen(printed->names);
+    snprintf(printed->names + used, sizeof printed->names - used, "%s%s\n", used == 0 ? "\n" : "",
+             name);
     return false;
 }
 
-/* Prints the force at which the train folds at each interface. Tubes that carry more may fold the
- * train before they have done their work. */
-static void tell_folding(const CzArguments *arguments, const CzModel *model, Told *told) {
+/* Prints the force at which the train folds at each interface. Tubes with a higher force may fold
+ * the train before their stroke is used. */
+static void print_folding(const CzArguments *arguments, const CzModel *model, Printed *printed) {
     for (int i = 0; i < cz_model_n_interface(model); i++) {
         const CzInterfaceProperties properties = cz_model_interface_properties(model, i);
         const char *name = cz_model_interface_name(model, i);
-        if (isnan(properties.critical_force) || is_told(told, name))
+        if (isnan(properties.critical_force) || was_printed(printed, name))
             continue;
         if (arguments->text[CZ_OPTION_JSON] == NULL) {
             printf("  interface %s: F_crit %.1f kN", name, 1e-3 * properties.critical_force);
@@ -48,7 +49,7 @@ static void tell_folding(const CzArguments *arguments, const CzModel *model, Tol
     }
 }
 
-/* Builds the model of every scenario: the last rules are found there. */
+/* Builds the model of every scenario, because the last rules are checked there. */
 static int build_models(const CzSession *session, int *n_vehicle) {
     for (int i = 0; i < cz_problem_n_scenario(session->problem); i++) {
         CzModel *model = NULL;
@@ -61,20 +62,20 @@ static int build_models(const CzSession *session, int *n_vehicle) {
     return 0;
 }
 
-static int tell_models(const CzSession *session) {
-    Told told = {""};
+static int print_models(const CzSession *session) {
+    Printed printed = {""};
     for (int i = 0; i < cz_problem_n_scenario(session->problem); i++) {
         CzModel *model = NULL;
         CzError error = {0};
         if (cz_model_build(session->problem, i, &model, &error) != CZ_OK)
             return cz_session_fail(session, &error);
-        tell_folding(session->arguments, model, &told);
+        print_folding(session->arguments, model, &printed);
         cz_model_free(model);
     }
     return 0;
 }
 
-/* What a search would refuse; a problem without variables is not meant for one. */
+/* Reports what a search would reject; a problem without variables is not checked. */
 static int check_search(const CzSession *session) {
     CzError error = {0};
     if (cz_evaluator_n_variable(session->evaluator) == 0 ||
@@ -84,7 +85,7 @@ static int check_search(const CzSession *session) {
 }
 
 /* Variables that a search will not vary. */
-static void tell_fixed(const CzSession *session) {
+static void print_fixed(const CzSession *session) {
     for (int i = 0; i < cz_evaluator_n_variable(session->evaluator); i++) {
         const CzVariableInfo *info = cz_evaluator_variable(session->evaluator, i);
         if (info->is_fixed)
@@ -112,9 +113,9 @@ static int validate_file(const CzArguments *arguments, const char *file) {
                cz_problem_n_scenario(session.problem), n_vehicle,
                cz_evaluator_n_variable(session.evaluator));
     if (code == 0 && arguments->text[CZ_OPTION_JSON] == NULL)
-        tell_fixed(&session);
+        print_fixed(&session);
     if (code == 0)
-        code = tell_models(&session);
+        code = print_models(&session);
     cz_session_end(&session);
     return code;
 }
@@ -152,7 +153,7 @@ static void show_vehicles(const CzModel *model) {
     }
 }
 
-/* The vehicles at rest, solved anew from the laws; returns the exit code. */
+/* Prints the static equilibrium of the vehicles, solved from the laws; returns the exit code. */
 static int show_rest(const CzSession *session, const CzModel *model) {
     const int n = cz_model_n_vehicle(model);
     CzRest *rest = calloc((size_t)n, sizeof *rest);
@@ -172,7 +173,7 @@ static int show_rest(const CzSession *session, const CzModel *model) {
         put_number(rest[i].indentation[0], 1e-3, 3);
         if (isnan(rest[i].residual))
             printf(" %9s\n", "-");
-        else /* rounding decides the digits, so only its size is reported */
+        else /* its digits depend on rounding, so only its magnitude is reported */
             printf(" %9s\n", rest[i].residual < 1e-10 ? "< 1e-10" : ">= 1e-10");
     }
     free(rest);

@@ -12,8 +12,8 @@
 
 static const char default_folder[] = "out";
 
-/* Where the results of one of the files go, NULL when they go nowhere. `room` holds a name that is
- * made up: with several files each gets a folder of its own inside. */
+/* Result folder of one of the files, NULL when no results are written. `room` is space for its
+ * name; with several files each has a folder of its own inside the requested one. */
 static const char *folder_of(const CzArguments *arguments, const char *file, char room[4096]) {
     const char *folder = arguments->text[CZ_OPTION_OUTPUT];
     const bool by_default =
@@ -30,7 +30,7 @@ static const char *folder_of(const CzArguments *arguments, const char *file, cha
     return room;
 }
 
-static void tell_runs(const CzArguments *arguments, const CzEvaluation *evaluation) {
+static void print_runs(const CzArguments *arguments, const CzEvaluation *evaluation) {
     for (int i = 0; i < evaluation->n_run; i++) {
         if (evaluation->run == NULL || evaluation->run[i] == NULL)
             continue; /* a scenario that was left out */
@@ -40,8 +40,8 @@ static void tell_runs(const CzArguments *arguments, const CzEvaluation *evaluati
     }
 }
 
-/* Says what to do about runs that were cut at the longest time. */
-static void tell_incomplete(const CzArguments *arguments, const CzEvaluation *evaluation) {
+/* Prints what to do about runs that ended at the longest time. */
+static void print_incomplete(const CzArguments *arguments, const CzEvaluation *evaluation) {
     for (int i = 0; i < evaluation->n_run; i++) {
         if (evaluation->run == NULL || evaluation->run[i] == NULL)
             continue;
@@ -55,10 +55,11 @@ static void tell_incomplete(const CzArguments *arguments, const CzEvaluation *ev
     }
 }
 
-/* Only `check`, or `run --strict`, judges by exit code. What could not be judged is no pass. */
+/* Only `check`, or `run --strict`, judges by exit code. A check that could not be judged does not
+ * pass. */
 static int judge(const CzArguments *arguments, const CzEvaluation *evaluation) {
     if (evaluation->status != CZ_OK) {
-        tell_incomplete(arguments, evaluation);
+        print_incomplete(arguments, evaluation);
         cz_tell(arguments, "a run failed or is incomplete: do not use its results for a design");
         return cz_status_exit_code(CZ_STATUS_RUN_FAILED);
     }
@@ -71,7 +72,7 @@ static int judge(const CzArguments *arguments, const CzEvaluation *evaluation) {
     return cz_status_exit_code(CZ_STATUS_VIOLATED);
 }
 
-static int answer(CzSession *session, const CzEvaluation *evaluation, double wall_s,
+static int finish(CzSession *session, const CzEvaluation *evaluation, double wall_s,
                   const char *folder) {
     const CzArguments *arguments = session->arguments;
     CzReport report = cz_session_report(session, CZ_REPORT_RUN, wall_s);
@@ -103,8 +104,8 @@ static int run_file(const CzArguments *arguments, const char *file) {
         } else {
             const double wall_s = cz_clock() - started;
             if (arguments->text[CZ_OPTION_VERBOSE] != NULL)
-                tell_runs(arguments, &evaluation);
-            code = answer(&session, &evaluation, wall_s, folder);
+                print_runs(arguments, &evaluation);
+            code = finish(&session, &evaluation, wall_s, folder);
         }
         cz_evaluation_free(&evaluation);
     }
@@ -112,8 +113,8 @@ static int run_file(const CzArguments *arguments, const char *file) {
     return code;
 }
 
-/* Whether two of the files would be written to the same folder, which the second would replace.
- * Where the file system reports no capitals they are one folder too. */
+/* Whether two of the files would be written to the same folder, which the second would replace. On
+ * file systems that ignore case, names that differ by case are the same folder. */
 static int check_folders(const CzArguments *arguments) {
     char first[4096], second[4096];
     for (int i = 0; i < arguments->n_operand; i++)

@@ -1,11 +1,11 @@
-/* `explain`, `verify` and `bench`: a problem that is computed many times. */
+/* `explain`, `verify` and `bench`: commands that simulate a problem many times. */
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/messages.h"
 #include "cli/progress.h"
 #include "cli/session.h"
 
-/* The exit code of a study that came to no end. */
+/* Reports a study that was not completed; returns its exit code. */
 static int end_early(const CzSession *session, CzStatus status, const CzError *error) {
     if (status != CZ_STATUS_INTERRUPTED)
         return cz_session_fail(session, error);
@@ -13,7 +13,7 @@ static int end_early(const CzSession *session, CzStatus status, const CzError *e
     return 128 + cz_interrupt_signal();
 }
 
-/* ---- explain: why it climbed, and what would have to be otherwise ---- */
+/* ---- explain: the cause of an override, and changes that prevent it ---- */
 
 static int explain(CzSession *session) {
     const CzArguments *arguments = session->arguments;
@@ -35,7 +35,7 @@ static int explain(CzSession *session) {
     return code;
 }
 
-/* ---- verify: the numbers once more with a halved time step and by two other solvers ---- */
+/* ---- verify: results with a halved time step and by two other solvers ---- */
 
 static int judge(const CzArguments *arguments, const CzVerification *verification) {
     for (int method = 0; method < CZ_N_VERIFY_METHOD; method++)
@@ -67,7 +67,7 @@ static int verify(CzSession *session) {
     return code;
 }
 
-/* ---- bench: how long the scenarios take ---- */
+/* ---- bench: computing times of the scenarios ---- */
 
 static int bench(CzSession *session) {
     const CzArguments *arguments = session->arguments;
@@ -84,7 +84,7 @@ static int bench(CzSession *session) {
         return end_early(session, status, &error);
     CzReport report = cz_session_report(session, CZ_REPORT_BENCHMARK, benchmark->wall_s);
     report.benchmark = benchmark;
-    session->options.n_job = 1; /* whatever number of processors there is */
+    session->options.n_job = 1; /* for any number of processors */
     int code = cz_print_results(arguments, &report);
     if (code == 0) {
         cz_tell(arguments, "read in %.2g s, timed in %.2g s, on one thread", session->setup_s,

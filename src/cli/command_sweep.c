@@ -1,5 +1,5 @@
-/* `sweep`: any one or two paths over a range, every point judged; what was done is kept on the
- * first signal. */
+/* `sweep`: one or two paths over a range, with a verdict at every point; completed points are kept
+ * on the first signal. */
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/messages.h"
@@ -41,7 +41,7 @@ static int count_run(const CzSweep *sweep) {
     return n;
 }
 
-static int answer(CzSession *session, const CzSweep *sweep) {
+static int finish(CzSession *session, const CzSweep *sweep) {
     const CzArguments *arguments = session->arguments;
     const char *folder = arguments->text[CZ_OPTION_OUTPUT];
     CzReport report = cz_session_report(session, CZ_REPORT_SWEEP, sweep->wall_s);
@@ -60,7 +60,7 @@ static int answer(CzSession *session, const CzSweep *sweep) {
     return judge(arguments, sweep);
 }
 
-/* What absorber suppliers show over the speed, for one path and nothing else requested. */
+/* Default metrics for one path: those that absorber suppliers show over the speed. */
 static const char *const usual_metrics[] = {"elements.stroke_used", "interfaces.peak_force_kN",
                                             "energy.absorbers_kJ", "vehicles.max_wheel_lift_mm"};
 
@@ -90,7 +90,7 @@ static int sweep_file(CzSession *session, const CzSweepAxis *axis) {
     int code;
     cz_interrupt_catch();
     if (cz_sweep(session->file, &problem_options, &options, &sweep, &error) == CZ_OK)
-        code = answer(session, sweep);
+        code = finish(session, sweep);
     else
         code = cz_tell_error(arguments, &error);
     cz_sweep_free(sweep);

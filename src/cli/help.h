@@ -1,4 +1,4 @@
-/* What help is made of: topics beside the commands, and pages for other programs. */
+/* Help: topics in addition to the commands, and pages for other programs. */
 #ifndef CZ_CLI_HELP_H
 #define CZ_CLI_HELP_H
 
@@ -18,8 +18,8 @@ extern const CzHelpEntry cz_topics[CZ_N_TOPIC];
 
 void cz_help_write_topic(CzTopic topic);
 
-/* How checks add up to a verdict: the words in the order in which they are tried, up to one without
- * a name, and a remark. */
+/* How checks give a verdict: the words in the order in which they are tried, up to one without a
+ * name, and a remark. */
 extern const CzHelpEntry cz_verdict_rules[];
 extern const char cz_verdict_remark[];
 

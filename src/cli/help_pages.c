@@ -66,7 +66,7 @@ static void write_roff(const char *text) {
     }
 }
 
-/* One entry of a list: what is typed in bold, what represents something in italics, a meaning. */
+/* One entry of a list: typed text in bold, placeholders in italics, then the meaning. */
 static void write_entry(const char *typed, const char *value, const char *doc) {
     fputs(".TP\n\\fB", stdout);
     write_roff(typed);

@@ -1,4 +1,5 @@
-/* Topics of help that are no command: lists of what there is, expanded from the program's own. */
+/* Help topics other than commands: lists of checks, metrics, channels and so on, made from the
+ * program's own tables. */
 #include "cli/help.h"
 
 #include "crushzone/optimise.h"

@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <unistd.h>
 
-/* The signal that asked to stop, 0 when none did. */
+/* The signal that was received, 0 for none. */
 static volatile sig_atomic_t stop_signal;
 
 /* The current run is completed, which takes time, so the user is told that the signal arrived. */
@@ -15,7 +15,7 @@ static void on_signal(int signal_number) {
         _exit(128 + signal_number);
     stop_signal = signal_number;
     const ssize_t n_written = write(STDERR_FILENO, text, sizeof text - 1);
-    (void)n_written; /* nobody reads it where it cannot be written */
+    (void)n_written; /* a failure of this message is ignored */
 }
 
 void cz_interrupt_catch(void) {

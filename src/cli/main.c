@@ -42,7 +42,7 @@ static int (*const commands[CZ_N_COMMAND])(const CzArguments *) = {
 
 /* Whether --json is among the options: then a mistake in the command line is a JSON document too.
  */
-static bool asks_for_json(int argc, char **argv) {
+static bool has_json_option(int argc, char **argv) {
     for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++)
         if (strcmp(argv[i], "--json") == 0)
             return true;
@@ -61,17 +61,17 @@ static int dispatch(const CzArguments *arguments) {
     return commands[arguments->command](arguments);
 }
 
-/* Takes the places of streams that came closed, so that no file gets one of them and what is
- * printed ends up in it. Writing to such a place fails, as it should. */
+/* Opens the descriptors of standard streams that are closed at the start, so that no later file
+ * gets one of them and receives printed text. Writing to such a descriptor fails. */
 static void hold_closed_streams(void) {
     for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; descriptor++)
         if (fcntl(descriptor, F_GETFD) == -1)
-            (void)open("/dev/null", O_RDONLY); /* takes the lowest free place */
+            (void)open("/dev/null", O_RDONLY); /* takes the lowest free descriptor */
 }
 
 int main(int argc, char **argv) {
     hold_closed_streams();
-    /* A closed pipe and a full disk are errors of writing, not reasons to vanish. */
+    /* A closed pipe is an error of writing and must not end the program silently. */
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
 
@@ -81,7 +81,7 @@ int main(int argc, char **argv) {
     if (cz_arguments_read(argc, argv, &arguments, &error) == CZ_OK) {
         code = dispatch(&arguments);
     } else {
-        if (asks_for_json(argc, argv))
+        if (has_json_option(argc, argv))
             arguments.text[CZ_OPTION_JSON] = "";
         code = cz_tell_error(&arguments, &error);
     }

@@ -1,4 +1,4 @@
-/* Mistakes with the line they are in and a caret under the place. */
+/* Prints mistakes with their source line and a caret under the place. */
 #include "cli/messages.h"
 
 #include "base/error.h"

@@ -1,4 +1,4 @@
-/* Messages beside the results: mistakes with their place, warnings, notes. */
+/* Messages in addition to the results: mistakes with their place, warnings, notes. */
 #ifndef CZ_CLI_MESSAGES_H
 #define CZ_CLI_MESSAGES_H
 

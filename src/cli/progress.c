@@ -23,7 +23,7 @@ void cz_progress_begin(CzProgressLine *line, const CzArguments *arguments, bool 
     line->started = line->shown = cz_clock();
 }
 
-/* A number with its thousands set apart, such as "1 432". */
+/* A number with groups of thousands, such as "1 432". */
 static void group_thousands(double value, char text[32]) {
     if (!(fabs(value) < 1e9)) {
         snprintf(text, 32, "%.4g", value);

@@ -1,5 +1,5 @@
-/* How far a search is: one rewritten line on a terminal. A dumb terminal, and any other stream when
- * asked to be verbose, gets a line every ten seconds. */
+/* Progress of a search: one rewritten line on a terminal. On a dumb terminal, and on any other
+ * stream with --verbose, it is a line every ten seconds. */
 #ifndef CZ_CLI_PROGRESS_H
 #define CZ_CLI_PROGRESS_H
 
@@ -8,7 +8,7 @@
 
 typedef struct CzProgressLine {
     bool is_silent, is_terminal;
-    bool is_margin;        /* the objective is the smallest margin, turned to be minimised */
+    bool is_margin;        /* the objective is the negative of the smallest margin */
     const char *unit;      /* of the objective */
     double started, shown; /* [s], of a steady clock */
 } CzProgressLine;
@@ -19,7 +19,7 @@ void cz_progress_begin(CzProgressLine *line, const CzArguments *arguments, bool 
 /* The callback of CzOptimiseOptions; `data` is the CzProgressLine. */
 void cz_progress_show(const CzProgress *progress, void *data);
 
-/* How many of all are done, on a terminal; `data` is the CzArguments. */
+/* Shows the number of completed runs of all, on a terminal; `data` is the CzArguments. */
 void cz_progress_count(int n_done, int n_all, void *data);
 
 /* Clears the line. */

@@ -1,4 +1,5 @@
-/* Result folders read back: how a search ended from run.log, what it looked at from history.csv. */
+/* Reads result folders: the end of a search from run.log, its evaluated designs from
+ * history.csv. */
 #include "cli/recall.h"
 
 #include "base/error.h"
@@ -23,7 +24,7 @@ static void close_file(FILE *stream) {
         fclose(stream);
 }
 
-/* What follows a beginning of a line; NULL for a line that begins otherwise. */
+/* The text after a beginning of a line; NULL for a line that begins otherwise. */
 static char *after(char *line, const char *beginning) {
     const size_t n = strlen(beginning);
     return strncmp(line, beginning, n) == 0 ? line + n : NULL;
@@ -92,7 +93,7 @@ CzRunLog cz_recall_log(const char *folder) {
 
 /* ---- history ---- */
 
-/* What a search looked at. */
+/* Designs that a search evaluated. */
 typedef struct History {
     int n_variable;
     long n;
@@ -100,8 +101,8 @@ typedef struct History {
     double *x;      /* (n x n_variable) */
 } History;
 
-/* Takes the next field off a line. */
-static char *take_field(char **rest, char separator) {
+/* Removes the next field from a line and returns it. */
+static char *cut_field(char **rest, char separator) {
     char *field = *rest, *end = strchr(field, separator);
     if (end == NULL)
         end = field + strcspn(field, "\r\n");
@@ -111,8 +112,8 @@ static char *take_field(char **rest, char separator) {
 }
 
 /* A number with either decimal sign; NaN for an empty field. */
-static double take_number(char **rest, char separator) {
-    char *field = take_field(rest, separator), *comma = strchr(field, ',');
+static double cut_number(char **rest, char separator) {
+    char *field = cut_field(rest, separator), *comma = strchr(field, ',');
     double value;
     if (comma != NULL)
         *comma = '.';
@@ -122,20 +123,20 @@ static double take_number(char **rest, char separator) {
 static void read_row(char *line, char separator, History *history) {
     CzTrial *trial = &history->trial[history->n];
     double *x = &history->x[history->n++ * history->n_variable];
-    (void)take_field(&line, separator); /* its number */
-    (void)take_field(&line, separator); /* its phase */
-    trial->objective = take_number(&line, separator);
-    trial->violation = take_number(&line, separator);
-    trial->feasible = strcmp(take_field(&line, separator), "yes") == 0;
+    (void)cut_field(&line, separator); /* its number */
+    (void)cut_field(&line, separator); /* its phase */
+    trial->objective = cut_number(&line, separator);
+    trial->violation = cut_number(&line, separator);
+    trial->feasible = strcmp(cut_field(&line, separator), "yes") == 0;
     for (int i = 0; i < history->n_variable; i++)
-        x[i] = take_number(&line, separator);
+        x[i] = cut_number(&line, separator);
 }
 
-/* The separator, which the first line shows; 0 where it has another number of columns. */
+/* Finds the separator in the first line; 0 where that has another number of columns. */
 static char separator_of(char *line, int n_column) {
     const char *rest = after(line, "evaluation");
     const char separator = rest != NULL ? *rest : '\0';
-    bool in_quotes = false; /* a variable's name may hold the separator */
+    bool in_quotes = false; /* a variable's name may contain the separator */
     for (const char *c = line; *c != '\0'; c++) {
         in_quotes ^= *c == '"';
         n_column -= *c == separator && !in_quotes;

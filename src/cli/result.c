@@ -1,4 +1,4 @@
-/* Reading result folders back by running them again, and writing single files. */
+/* Reads result folders by running their problem again, and writes single files. */
 #include "cli/result.h"
 
 #include "base/error.h"
@@ -8,7 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* What to run for an operand: the file itself, or what its folder holds. */
+/* File to run for an operand: the file itself, or that in the folder. */
 static int find_file(CzResult *result, const char *operand) {
     struct stat found;
     CzError error;
@@ -26,7 +26,7 @@ static int find_file(CzResult *result, const char *operand) {
     }
     snprintf(result->file, sizeof result->file, "%s/resolved.yaml", operand);
     result->log = cz_recall_log(operand);
-    if (!result->log.is_ours) /* which may compute something else than what the folder holds */
+    if (!result->log.is_ours) /* which may give other results than those in the folder */
         cz_tell(&result->arguments,
                 "warning: the results in %s are from another version of crushzone; this version "
                 "computed them again",
@@ -41,7 +41,7 @@ int cz_result_begin(CzResult *result, const CzArguments *arguments, const char *
                     const char *output) {
     memset(result, 0, sizeof *result);
     result->arguments = *arguments;
-    result->session.arguments = &result->arguments; /* also when the session does not begin */
+    result->session.arguments = &result->arguments; /* also when the session cannot begin */
     int code = find_file(result, operand);
     if (code == 0)
         code = cz_session_begin(&result->session, &result->arguments, result->file);
@@ -70,7 +70,7 @@ static bool is_same_file(const char *path, const char *other) {
            S_ISREG(first.st_mode) && first.st_dev == second.st_dev && first.st_ino == second.st_ino;
 }
 
-/* Whether a file is one that the command line names to be read. */
+/* Whether the command line names a file as an input. */
 static bool is_read(const CzArguments *arguments, const char *path) {
     bool is_read = is_same_file(path, arguments->text[CZ_OPTION_MEASURED]);
     for (int i = 0; i < arguments->n_operand; i++)

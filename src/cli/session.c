@@ -40,8 +40,9 @@ static CzStatus read_problem(CzSession *session, CzError *error) {
                                 &session->problem, error);
 }
 
-/* Options of the command line that change results; --time-step-ms is among the settings. */
-static void take_words(CzSession *session) {
+/* Collects the options of the command line that change results; --time-step-ms is among the
+ * settings. */
+static void list_options(CzSession *session) {
     static const CzOption told[] = {CZ_OPTION_SCENARIO, CZ_OPTION_INTEGRATOR, CZ_OPTION_ALGORITHM,
                                     CZ_OPTION_EVALUATIONS, CZ_OPTION_SEED};
     static const char *const words[] = {"--scenario", "--integrator", "--algorithm",
@@ -60,7 +61,7 @@ int cz_session_read(CzSession *session, const CzArguments *arguments, const char
     memset(session, 0, sizeof *session);
     session->arguments = arguments;
     session->file = file;
-    take_words(session);
+    list_options(session);
     CzError error = {0};
     if (read_problem(session, &error) != CZ_OK)
         return cz_session_fail(session, &error);
@@ -94,7 +95,7 @@ void cz_session_end(CzSession *session) {
     session->problem = NULL;
 }
 
-/* Threads that were at work: as many as requested, else as there are processors. */
+/* Number of threads that were used: as requested, else the number of processors. */
 static int n_job_of(const CzArguments *arguments) {
     const long n_processor = sysconf(_SC_NPROCESSORS_ONLN);
     return arguments->n_job > 0 ? arguments->n_job : n_processor > 0 ? (int)n_processor : 0;
@@ -152,7 +153,7 @@ int cz_session_check_folder(const CzSession *session, const char *folder, bool r
     return cz_tell_error(session->arguments, &error);
 }
 
-/* Mistakes that were found while reading are reported all; later ones alone, with their source
+/* Mistakes that were found while reading are all reported; later ones alone, with their source
  * line. */
 int cz_session_fail(const CzSession *session, const CzError *error) {
     if (session->problem == NULL || cz_problem_n_mistake(session->problem) > 0 ||

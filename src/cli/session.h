@@ -10,10 +10,10 @@ typedef struct CzSession {
     const char *file;
     CzProblem *problem;
     CzEvaluator *evaluator;
-    char *text;           /* what came from standard input; NULL when a file was read */
+    char *text;           /* text from standard input; NULL when a file was read */
     size_t n_text;        /* [byte] */
     double setup_s;       /* reading and building [s] */
-    const char *word[10]; /* options that results depend on, but for settings (n_word) */
+    const char *word[10]; /* options that change results, except settings (n_word) */
     int n_word;
     CzReportOptions options; /* of its results, set by cz_session_report */
 } CzSession;
@@ -21,11 +21,11 @@ typedef struct CzSession {
 /* Folder of shipped data of this program (share_folder.c). */
 extern const char *const cz_share_folder;
 
-/* How this program reads problem files: settings of the command line, shipped data. */
+/* Options for reading problem files: settings of the command line, folder of shipped data. */
 CzProblemOptions cz_session_problem_options(const CzArguments *arguments);
 
 /* Reads a problem file with the settings of the command line and reports its mistakes and warnings.
- * Returns the exit code, 0 when all is well; end with cz_session_end in any case. */
+ * Returns the exit code, 0 on success; end with cz_session_end in any case. */
 CZ_MUST_CHECK int cz_session_read(CzSession *session, const CzArguments *arguments,
                                   const char *file);
 
@@ -34,17 +34,17 @@ CZ_MUST_CHECK int cz_session_begin(CzSession *session, const CzArguments *argume
                                    const char *file);
 void cz_session_end(CzSession *session);
 
-/* The results of this session, to be written; the caller adds those of the kind. */
+/* The report of this session for writing; the caller adds the results of its kind. */
 CzReport cz_session_report(CzSession *session, CzReportKind kind, double wall_s);
 
 /* Prints results, a JSON document with --json, else tables; writes their folder (NULL: none). Both
- * report a failure and return its exit code, 0 when all is well. */
+ * report a failure and return its exit code, 0 on success. */
 CZ_MUST_CHECK int cz_print_results(const CzArguments *arguments, const CzReport *report);
 CZ_MUST_CHECK int cz_keep_results(const CzArguments *arguments, const CzReport *report,
                                   const char *folder);
 
-/* Whether results can be written to a folder (NULL: to none), before anything runs in vain; returns
- * the exit code. */
+/* Whether results can be written to a folder (NULL: to none), before any run; returns the exit
+ * code. */
 CZ_MUST_CHECK int cz_session_check_folder(const CzSession *session, const char *folder,
                                           bool replaces_search);
 

@@ -1,5 +1,5 @@
-/* Where the program finds shipped data. The only source of the program that is compiled twice: for
- * the one that runs from its build tree, and for the one that is installed. */
+/* Folder of shipped data. This source alone is compiled twice: for the program in the build tree,
+ * and for the installed program. */
 #include "cli/session.h"
 
 const char *const cz_share_folder = CZ_SHARE_FOLDER;

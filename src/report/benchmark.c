@@ -10,7 +10,7 @@ static void put_time(CzReportTable *table, double time) {
     cz_table_put(table, cz_figure_plain(text, time * CZ_MILLI_PER_UNIT));
 }
 
-/* Name and size of the scenario are in its first row only. */
+/* Only the first row of a scenario shows its name and size. */
 static void put_scenario(CzReportTable *table, const CzScenarioTimes *times) {
     cz_table_put(table, times->scenario);
     cz_table_put_format(table, "%d", times->n_vehicle);

@@ -5,9 +5,9 @@
 #include "crushzone/report.h"
 #include "report/charts.h"
 
-/* Reads the measured curves of a figure; none without a file. Over the panels the title of a column
- * decides, which begins as a channel: F_, v_, x_, d_. Statuses: CZ_STATUS_INPUT,
- * CZ_STATUS_NO_MEMORY; free the curves in any case. */
+/* Reads the measured curves of a figure; none without a file. In the figure of four panels the
+ * beginning of a column's title chooses the panel, as in names of channels: F_, v_, x_, d_.
+ * Statuses: CZ_STATUS_INPUT, CZ_STATUS_NO_MEMORY; free the curves in any case. */
 CZ_MUST_CHECK CzStatus cz_chart_curves_read(const CzChartOptions *options, CzChart chart, int *n,
                                             CzChartCurve measured[CZ_MOST_CHART_CURVES],
                                             CzError *error);

@@ -1,4 +1,4 @@
-/* Drawing of figures: which curves, limits and shaded times each has. */
+/* Draws figures: the curves, limits and shaded times of each. */
 #include "report/charts.h"
 
 #include "base/arena.h"
@@ -144,7 +144,7 @@ static void draw_parts(Sheet *sheet, CzChart chart, int place) {
     }
 }
 
-/* ---- what figures have beside them ---- */
+/* ---- limits, shaded times and curves for comparison ---- */
 
 /* Adds the limits of the checks of peak forces of interfaces. */
 static void draw_force_limits(Sheet *sheet) {
@@ -317,7 +317,7 @@ static void draw_measured(Sheet *sheet, CzChart chart) {
 
 /* ---- the figure ---- */
 
-/* What figures have beside their parts; those with neither have the quantity of their y axis. */
+/* Parts and additions of figures; those with neither show the quantity of their y axis. */
 static const struct {
     void (*draw)(Sheet *sheet, int index);
     bool from_zero;

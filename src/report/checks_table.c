@@ -32,7 +32,7 @@ static const char *spaced_unit(const CzCheckResult *check, char room[32]) {
 
 const char *cz_checks_limit(char text[CZ_CHECK_ROOM], const CzCheckResult *check) {
     char number[CZ_FIGURE_ROOM], unit[32];
-    double read; /* a limit that was typed is printed as it was, one that was computed is rounded */
+    double read; /* a typed limit is printed unchanged, a computed one is rounded */
     if (!isfinite(check->limit))
         return "-";
     cz_figure_digits(number, 6, check->limit);
@@ -100,7 +100,7 @@ static const char *or_empty(const char *text) {
 /* A margin to the right of the middle, a violation to the left. */
 static const CzBar margin_bar = {"bar", "margin", 30, 31, "#d0021b", "#009e73"};
 
-/* When the value was reached, or the window of a mean. */
+/* Time at which the value was reached, or window of a mean. */
 static void format_when(const CzCheckResult *check, size_t room, char *text) {
     char from[CZ_FIGURE_ROOM], to[CZ_FIGURE_ROOM];
     text[0] = '\0';
@@ -112,7 +112,7 @@ static void format_when(const CzCheckResult *check, size_t room, char *text) {
     snprintf(text, room, "%.20s%s%.20s", from, is_window ? " to " : "", is_window ? to : "");
 }
 
-/* Why, and the clause and source of the limit. */
+/* Reason, clause and source of the limit. */
 static void put_source(CzReportTable *table, const CzCheckResult *check) {
     const bool has_source = check->source != NULL && check->source[0] != '\0';
     const bool has_confidence = has_source && check->confidence != NULL;

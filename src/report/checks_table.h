@@ -7,8 +7,8 @@
 #include "report/table.h"
 
 /* Writes a line per check of a single scenario; of several scenarios the worst line of each check
- * and every failure, of a family of scenarios its worst failure; of scenarios that were left out
- * one line in all. `before` (NULL for none) is an evaluation with the same checks. Ends with a line
+ * and every failure, of a family of scenarios its worst failure; of all scenarios that were left
+ * out one line. `before` (NULL for none) is an evaluation with the same checks. Ends with a line
  * that counts the verdicts. */
 void cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *before,
                            CzTerminal *terminal);

@@ -41,8 +41,8 @@ const CzCheckResult *cz_compared_check(const CzReportRun *run, const CzCheckResu
     return NULL;
 }
 
-/* By more than a thousandth of the limit, or of the violation. A margin has the scale of its
- * quantity, so that two values next to zero do not differ by a large share. */
+/* Whether values differ by more than a thousandth of the limit, or of the violation. A margin has
+ * the scale of its quantity, so that two values next to zero do not differ by a large share. */
 static bool differs_in_value(const CzCheckResult *check, const CzCheckResult *other) {
     const double share = 1e-3;
     if (check->limit != other->limit || isnan(check->margin) || isnan(other->margin))
@@ -142,7 +142,7 @@ void cz_compared_begin_checks(CzReportTable *table, const CzReport *report, int 
     }
 }
 
-/* Whether a run has the result: single masses have no wheels that lift. */
+/* Whether a run has the result; single masses, for example, have no wheel lift. */
 static bool is_known(const CzReport *report, const CzResult *result, const char *name) {
     for (int i = 0; i < report->n_compared; i++)
         if (isfinite(cz_compared_value(report, i, result, name)))

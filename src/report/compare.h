@@ -8,11 +8,11 @@
 #include "report/runs.h"
 #include "report/table.h"
 
-/* The scenario of a compared run that is compared: of the first run the requested one, or the one
- * with the smallest margin; of the others the one of the same name, or else the one with the
- * smallest margin. -1 when none ran. */
+/* The compared scenario of a run: of the first run the requested one, or the one with the smallest
+ * margin; of the others the one of the same name, or else the one with the smallest margin. -1 when
+ * none ran. */
 int cz_compared_scenario(const CzReport *report, int i);
-/* Its summary; NULL when none was kept. */
+/* Summary of that scenario; NULL when none was kept. */
 const CzRunSummary *cz_compared_run(const CzReport *report, int i);
 
 /* The check of the same name and scenario in another run; NULL when it has none. */
@@ -25,7 +25,7 @@ bool cz_compared_differs(const CzReport *report, const CzCheckResult *check);
 double cz_compared_value(const CzReport *report, int i, const CzResult *result, const char *name);
 /* Whether the compared scenario went beyond model validity. */
 bool cz_compared_is_beyond(const CzReport *report, int i);
-/* The meaning of the mark when a run has it; empty when none has. */
+/* Explanation of the mark when a run has it; empty when none has. */
 const char *cz_compared_caution(const CzReport *report);
 
 /* Tables: checks that differ, and the number of equal ones; results of interfaces or cars, with

@@ -44,8 +44,8 @@ static bool parts_fields(char sign) {
     return sign != '\0' && strchr(",;\t|\"\r\n", sign) != NULL;
 }
 
-/* Writes a text with an apostrophe before formulas and with doubled quotes; with `stream` NULL only
- * looks at it. Returns whether the text needs quotes. */
+/* Writes a text with an apostrophe before formulas and with doubled quotes; with `stream` NULL it
+ * writes nothing. Returns whether the text needs quotes. */
 static bool walk_text(const Table *table, const char *text, FILE *stream) {
     bool needs_quotes = false, begins_cell = true;
     for (; *text != '\0'; text++) {
@@ -76,7 +76,7 @@ static void put_text(Table *table, const char *text) {
         fputc('"', table->stream);
 }
 
-/* Writes a number that was typed or measures an error. */
+/* Writes a typed number, or one that is an error measure. */
 static void put_exact(Table *table, double value) {
     char text[CZ_FIGURE_ROOM];
     begin_field(table);

@@ -35,8 +35,8 @@ static int furthest(const double *x, const double *y, Span span, double toleranc
     return found;
 }
 
-/* Decimates with one tolerance; returns the number of points kept. `stack` has room for n spans:
- * every split adds one, and a span of one step is not split. */
+/* Decimates with one tolerance; returns the number of points kept. `stack` has room for n spans,
+ * which suffices, because every split adds one and a span of one step is not split. */
 static int thin_once(int n, const double *x, const double *y, double tolerance, bool *keep,
                      Span *stack) {
     int n_stack = 0, n_kept = n > 1 ? 2 : n;

@@ -27,7 +27,7 @@ typedef struct Side {
     const CzEnd *end;
     const char *name;
     double centre; /* of its body in the drawing */
-    double sign;   /* of outwards in the drawing */
+    double sign;   /* direction of outwards in the drawing */
     double plane;  /* foremost plane from the centre [m] */
     double edge;   /* inner edge of its label column in the drawing */
     double rise;   /* height of its end above the drawn one [m] */

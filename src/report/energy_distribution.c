@@ -44,7 +44,7 @@ static void write_row(const CzRunSummary *run, const CzInterfaceResult *interfac
     cz_svg_text(markup, x + 6, y + 13, "start", text);
 }
 
-/* The legend lists the kinds of elements of the train. */
+/* Whether the train has elements of a kind, for the legend. */
 static bool has_kind(const CzRunSummary *run, int kind) {
     for (int i = 0; i < run->n_interface; i++)
         for (int k = 0; k < run->interface[i].n_element; k++)

@@ -104,7 +104,7 @@ static void put_candidate(CzReportTable *table, const CzCandidateChange *candida
     cz_table_put(table, cz_figure_margin(number, candidate->margin));
 }
 
-/* Those that turn the verdict, or those that do not. */
+/* Writes the candidates that change the verdict, or those that do not. */
 static void write_candidates(const CzExplanation *explanation, bool turning, CzTerminal *terminal) {
     const bool broken = explanation->worst.margin < 0;
     static const char *const titles[2][2] = {

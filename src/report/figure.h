@@ -1,8 +1,8 @@
 /* Numbers as text, with a decimal point in every locale.
  *
  * One rule holds in tables, JSON, CSV and pages: a quantity below 1e-9 in its printed unit is a
- * rounding residue and prints as 0; zero has no sign. Numbers that were typed, or that measure an
- * error, keep their size whatever it is.
+ * rounding residue and prints as 0; zero has no sign. Typed numbers and error measures are never
+ * rounded to 0.
  */
 #ifndef CZ_REPORT_FIGURE_H
 #define CZ_REPORT_FIGURE_H
@@ -29,14 +29,14 @@ const char *cz_figure_plain(char text[CZ_FIGURE_ROOM], double value);
 /* Share as a percentage: "56 %", "0.5 %"; ">999 %" and "<-999 %" beyond; "-" for NaN. */
 const char *cz_figure_percent(char text[CZ_FIGURE_ROOM], double share);
 
-/* The same with its sign: "+54 %", "-0.03 %"; a negative share never reads as zero. */
+/* A share with its sign: "+54 %", "-0.03 %"; a negative share never reads as zero. */
 const char *cz_figure_margin(char text[CZ_FIGURE_ROOM], double share);
 
 /* A change as a percentage with two digits, so that a change of one in a million is not "0 %";
  * ">999 %" beyond; "-" for NaN. */
 const char *cz_figure_change(char text[CZ_FIGURE_ROOM], double change);
 
-/* Marks a number that may be from the time beyond model validity: "3483*"; "-" stays. */
+/* Marks a number that may belong to the time beyond model validity: "3483*"; "-" stays. */
 const char *cz_figure_mark(char text[CZ_FIGURE_ROOM], bool beyond_validity);
 /* The meaning of the mark, printed with the table or figure. */
 #define CZ_FIGURE_MARK_MEANS "*: may be of later; totals are blank"

@@ -127,7 +127,7 @@ static CzStatus check_content(const char *path, bool replaces_search, CzError *e
     char foreign[PATH_MAX];
     char *marker = cz_marker_read(path);
     if (marker == NULL && access(path, F_OK) != 0)
-        return CZ_OK; /* removed meanwhile, as in check_movable() */
+        return CZ_OK; /* another process has removed it */
     if (marker == NULL)
         return cz_fail(error, CZ_STATUS_OUTPUT,
                        "the folder %.200s exists and was not written by crushzone; choose "
@@ -149,7 +149,7 @@ static CzStatus check_content(const char *path, bool replaces_search, CzError *e
     return CZ_OK;
 }
 
-/* Checks that an existing folder can be moved: it is no mount point and does not contain the
+/* Checks that an existing folder can be moved: it is not a mount point and does not contain the
  * current folder. rmdir() of a folder that is not empty fails with EBUSY at a mount point; an empty
  * folder is created again. */
 static CzStatus check_movable(const char *path, const struct stat *info, CzError *error) {
@@ -227,7 +227,7 @@ static CzStatus check_parents(const char *path, CzError *error) {
 
 /* Folders of a dead process; paths are empty when there is none. */
 typedef struct Left {
-    const char *name;     /* of the folder that it was replacing */
+    const char *name;     /* of the folder that the process was replacing */
     char made[PATH_MAX];  /* the new results, whole */
     char moved[PATH_MAX]; /* the results before them */
 } Left;
@@ -271,7 +271,8 @@ bool cz_report_restore_folder(const char *path) {
     cz_each_temporary(parent, look_at, &left);
     if (left.made[0] == '\0')
         return put_back(left.moved, clean);
-    const bool is_back = put_back(left.made, clean); /* fails while its maker lives */
+    const bool is_back =
+        put_back(left.made, clean); /* fails while the process that created it lives */
     if (is_back && left.moved[0] != '\0')
         cz_remove_listed(left.moved);
     return is_back;

@@ -119,7 +119,7 @@ typedef struct Default {
     int n; /* places */
 } Default;
 
-/* Splits "  - key: value   # default (ours)" into its parts; false when it is no default. */
+/* Splits " - key: value # default (ours)" into its parts; false when it is not a default. */
 static bool read_default(const char *line, char value[64], bool *is_ours) {
     const char *origin = strstr(line, "# default");
     const char *colon = strchr(line, ':');

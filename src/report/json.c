@@ -91,7 +91,7 @@ void cz_json_exact(CzJson *json, const char *key, double value) {
     begin_item(json, key);
     fputs(isfinite(value) ? cz_number_print(text, cz_figure_exact(value)) : "null", json->stream);
     if (isfinite(value) && strpbrk(text, ".e") == NULL)
-        fputs(".0", json->stream); /* a real stays one */
+        fputs(".0", json->stream); /* keeps the number a real */
 }
 
 void cz_json_whole(CzJson *json, const char *key, long value) {

@@ -11,7 +11,7 @@ typedef struct CzJson {
     FILE *stream;
     int depth;     /* records and lists that are open */
     char end[16];  /* the sign that closes each, outermost first; no document is that deep */
-    bool has_item; /* the innermost has one already */
+    bool has_item; /* the innermost has an item already */
 } CzJson;
 
 /* Opens a record or a list; the key is NULL inside a list and for the document. */
@@ -20,7 +20,8 @@ void cz_json_open_list(CzJson *json, const char *key);
 void cz_json_close(CzJson *json);
 
 /* Values; key is NULL inside a list. A NULL text and a number that is not finite become null; bytes
- * that are no UTF-8 become question marks. Reals get as few digits as read back to the same double.
+ * that are not UTF-8 become question marks. Reals have the fewest digits that are read back as the
+ * same double.
  */
 void cz_json_text(CzJson *json, const char *key, const char *text);
 void cz_json_real(CzJson *json, const char *key, double value);  /* a quantity: figure.h */

@@ -54,7 +54,7 @@ static void write_unchecked(const CzEvaluation *best, CzTerminal *terminal) {
 }
 
 /* A value or bound of a variable: a bound to its last digit, any other value with six, or with all
- * of them where six would read as a bound that it is not at. */
+ * of them where six digits would look like a bound that it is not at. */
 static const char *number_text(char text[CZ_FIGURE_ROOM], const CzVariableInfo *variable,
                                double value) {
     double read;
@@ -92,7 +92,7 @@ static void write_head(const CzEvaluator *evaluator, const CzOutcome *outcome,
     write_objective(evaluator, outcome, terminal);
 }
 
-/* Where a value is between the bounds; NaN when they leave no room. */
+/* Place of a value between the bounds, 0 to 1; NaN when the bounds are equal. */
 static double share_of(const CzVariableInfo *variable, double value) {
     const double range = variable->max - variable->min;
     return range > 0 ? (value - variable->min) / range : NAN;
@@ -193,7 +193,8 @@ void cz_outcome_put_constraint(CzReportTable *table, const CzEvaluator *evaluato
     cz_table_put(table, check != NULL ? cz_figure_margin(text, margin) : "");
 }
 
-/* Every constraint that the best design violates; a constraint may be a target that is no check. */
+/* Every constraint that the best design violates; a constraint may also be a target, which has no
+ * check. */
 static void write_violations(const CzEvaluator *evaluator, const CzOutcome *outcome,
                              CzTerminal *terminal) {
     const CzEvaluation *best = &outcome->best_evaluation;

@@ -5,7 +5,7 @@
 #include "crushzone/report.h"
 #include "report/table.h"
 
-/* Bounds and values of the variables; on a page with a drawing of where they are. */
+/* Bounds and values of the variables; on a page with a drawing of the values between the bounds. */
 void cz_outcome_begin_variables(CzReportTable *table, const CzReport *report, bool on_page);
 
 /* A row of a table of constraints, whose heads follow that of their names. */
@@ -16,7 +16,7 @@ void cz_outcome_put_constraint(CzReportTable *table, const CzEvaluator *evaluato
 /* How a search ended, in capital letters; of a fit, about its tolerances. */
 const char *cz_outcome_words(const CzEvaluator *evaluator, const CzOutcome *outcome);
 
-/* What each method of a verification changes most. */
+/* The largest change by each method of a verification. */
 void cz_verified_begin_methods(CzReportTable *table, const CzVerification *verification,
                                bool on_page);
 

@@ -72,7 +72,7 @@ static const char *best_at(const CzVariableInfo *variable, const CzVariablePlace
         variable->n_choice > 0 ? variable->choice[(int)own] : cz_number_print(number, own), arena);
 }
 
-/* The setting that keeps the stroke for which the car is drawn, beside a new stroke. */
+/* The setting that keeps the stroke for which the car is drawn, in addition to a new stroke. */
 static const char *drawn_stroke_at(const CzVariablePlace *place, CzArena *arena) {
     char number[CZ_NUMBER_TEXT];
     const char *stages = strstr(place->path, ".stages[");
@@ -81,8 +81,8 @@ static const char *drawn_stroke_at(const CzVariablePlace *place, CzArena *arena)
 }
 
 /* Settings "path=value" that turn the problem file into the best design: with `all` those of the
- * command line, then the best value of every place that a variable sets, exact to the last bit; no
- * path is in it twice. NULL without memory. */
+ * command line, then the best value of every place that a variable sets, exact to the last bit;
+ * every path occurs once. NULL without memory. */
 static const char **settings_of(const CzReport *report, bool all, CzArena *arena, int *n_setting) {
     const CzReportOptions *options = cz_report_options_of(report);
     const CzEvaluator *evaluator = report->evaluator;

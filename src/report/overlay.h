@@ -1,4 +1,4 @@
-/* The optimum as settings of a problem file. All are about the report of a search. */
+/* The optimum as settings of a problem file. For reports of a search only. */
 #ifndef CZ_REPORT_OVERLAY_H
 #define CZ_REPORT_OVERLAY_H
 

@@ -23,7 +23,7 @@ typedef struct CzPageOther {
 
 /* Quasi-static curve of an interface by the input, up to the largest closure of the run. */
 typedef struct CzInputCurve {
-    int n;          /* 0 where the run did not close it */
+    int n;          /* 0 where the interface was not closed in the run */
     double *points; /* closures [mm], then forces [kN], NaN far above those of the run (2 n) */
 } CzInputCurve;
 
@@ -58,7 +58,7 @@ typedef struct CzPage {
     CzInputsText inputs;
     struct CzChartCurve *fitted; /* measured time histories of a fit; `measured` points to them */
 
-    /* What was drawn. */
+    /* Drawn so far. */
     CzMarkup
         markup; /* writes into memory, because the size of the page decides how many rows it has */
     CzMemoryText text; /* what was written, known once the markup's stream was flushed */
@@ -92,11 +92,11 @@ CZ_MUST_CHECK CzStatus cz_page_write_run(const CzReport *report, int scenario, b
  * Statuses: CZ_STATUS_INPUT, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_page_write_outcome(const CzReport *report, FILE *stream, CzError *error);
 
-/* Writes a comparison: what differs, and curves over each other. Statuses: as above. */
+/* Writes a comparison: differing results, and curves over each other. Statuses: as above. */
 CZ_MUST_CHECK CzStatus cz_page_write_comparison(const CzReport *report, FILE *stream,
                                                 CzError *error);
 
-/* The parts about one run, from the trains to the inputs, and the data for the script. */
+/* The sections about one run, from the trains to the inputs, and the data for the script. */
 void cz_page_write_parts(CzPage *page);
 
 /* Copies the whole page to a stream. Status: CZ_STATUS_NO_MEMORY. */
@@ -114,7 +114,7 @@ void cz_page_write_contents(CzPage *page, bool of_search);
 void cz_page_write_verdict(CzPage *page, bool is_top);
 void cz_page_write_trains(CzPage *page);
 void cz_page_write_figures(CzPage *page);
-void cz_page_write_budget(CzPage *page); /* page_budget.c; nothing where no car is full */
+void cz_page_write_budget(CzPage *page); /* page_budget.c; nothing where no car has running gear */
 void cz_page_write_animation(CzPage *page);
 void cz_page_write_events(CzPage *page);
 void cz_page_write_inputs(CzPage *page);

@@ -1,4 +1,4 @@
-/* Impulses that pitched and lifted the bodies, by source, with bars. */
+/* Impulses that pitched and lifted the bodies, by source, as bars. */
 #include "report/page.h"
 
 #include "report/figure.h"
@@ -44,7 +44,8 @@ static void write_car(CzMarkup *markup, const char *car, const CzVehicleBudget *
     cz_table_write_page(&table, markup);
 }
 
-/* The car with the largest wheel lift, or pitch where none lifts; -1 without full cars. */
+/* The car with the largest wheel lift, or with the largest pitch where no wheel lifts; -1 without
+ * cars with running gear. */
 static int worst_car(const CzRunSummary *run) {
     int found = -1;
     double most_lift = 0, most_pitch = 0;

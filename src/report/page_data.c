@@ -4,7 +4,7 @@
  *
  *   +3, -12   a second difference
  *   z, z5     one that is zero, five of them
- *   n, n5     a value that is no number, five of them
+ *   n, n5     a value that is not a number, five of them
  */
 #include "report/page.h"
 
@@ -25,7 +25,7 @@ enum {
 };
 
 /* Largest number of decimals of the channels in the data of the page, 0 for other channels; fewer
- * for those that only move the animation. */
+ * for those that only the animation uses. */
 static const int most_decimals[CZ_N_DRAWN] = {[CZ_DRAWN_TIME] = FINEST_TIME,
                                               [CZ_DRAWN_BODY_DISPLACEMENT] = 3,
                                               [CZ_DRAWN_BODY_SPEED] = 3,
@@ -127,7 +127,7 @@ typedef struct Rows {
     const bool *later; /* (n) */
 } Rows;
 
-/* Ends a run of zeros or of values that are no numbers. */
+/* Ends a run of zeros or of values that are not numbers. */
 static void write_run(FILE *stream, int n, bool is_gap) {
     if (n > 0)
         fputc(is_gap ? 'n' : 'z', stream);
@@ -203,7 +203,7 @@ static bool make_text(const CzPage *page, const Rows *rows, CzMemoryText *text) 
 static bool fill(const CzPage *page, Rows *rows, CzMemoryText *text) {
     const size_t taken = FOOT_ROOM + strlen(cz_report_js) + page->text.n;
     const int fine = rows->n / 64 + 1;
-    int most = rows->n + 1, least = 0; /* do not fit, fit */
+    int most = rows->n + 1, least = 0; /* rows that do not fit, rows that fit */
     bool is_whole = true;
     for (rows->n_first = rows->n; is_whole && most - least > fine;
          rows->n_first = (least + most) / 2) {
@@ -219,7 +219,7 @@ static bool fill(const CzPage *page, Rows *rows, CzMemoryText *text) {
     return is_whole && make_text(page, rows, text);
 }
 
-/* Says at the end of the page which rows the cursor covers. */
+/* Writes at the end of the page which rows the cursor covers. */
 static void write_rows(CzPage *page, const Rows *rows) {
     CzMarkup *markup = &page->markup;
     const double spacing = (page->time[rows->n - 1] - page->time[0]) / (EVEN_SAMPLES - 1);

@@ -51,7 +51,7 @@ static void write_design(CzMarkup *markup, const Axes *axes, const double *x, do
     }
 }
 
-/* Draws the feasible designs, or the others, as one path; of many an even selection. */
+/* Draws the feasible designs, or the others, as one path; of many designs an even selection. */
 static void write_designs(CzMarkup *markup, const Axes *axes, bool feasible, const char *name) {
     const CzOutcome *outcome = axes->outcome;
     long n = 0, seen = 0, shown = 0;
@@ -114,7 +114,7 @@ static void write_figure(CzMarkup *markup, const Axes *axes, double start, doubl
     cz_markup_write(markup, "'><title>best</title></path></svg>\n");
 }
 
-/* The upper end of the axis of the objective is the better one; designs that are far worse lie at
+/* The upper end of the axis of the objective is the better one; designs that are far worse are at
  * its lower end. */
 static void find_range(Axes *axes, double start, double best) {
     axes->best = best;

@@ -1,4 +1,4 @@
-/* What pages have in common: head, links to the sections, foot. */
+/* Common parts of pages: head, links to the sections, foot. */
 #include "report/page.h"
 
 #include "report/assets.h"
@@ -30,7 +30,7 @@ void cz_page_write_contents(CzPage *page, bool of_search) {
     enum { ALWAYS = 0, OF_FIGURES = 1, OF_FULL_CARS = 2, OF_BUDGET = 4, OF_SEARCH = 8 };
     static const struct {
         const char *id, *name;
-        int where; /* which results it needs */
+        int where; /* required results */
     } parts[] = {{"checks", "checks", ALWAYS},
                  {"variables", "variables", OF_SEARCH},
                  {"active", "active constraints", OF_SEARCH},

@@ -1,4 +1,4 @@
-/* The animation, and frames where no script runs. */
+/* The animation, and still frames for readers without the script. */
 #include "report/charts.h"
 #include "report/figure.h"
 #include "report/plot.h"
@@ -9,7 +9,7 @@
 
 enum { N_FRAME = 6, WIDTH = 960 };
 
-/* Sample at which an interface is closed most. */
+/* Sample with the largest closure of an interface. */
 static int most_closed(const CzPage *page, int interface) {
     const double *closure = cz_page_values(page, CZ_DRAWN_INTERFACE_CLOSURE, interface);
     int found = page->n_sample - 1;

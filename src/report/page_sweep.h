@@ -16,7 +16,7 @@ static inline bool cz_sweep_is_beyond(const CzSweep *sweep) {
     return false;
 }
 
-/* What the signs of a map mean, and that a map or table shows results beyond model validity. */
+/* Explanations of the signs of a map, and of results beyond model validity. */
 #define CZ_MAP_SIGNS "+ pass   ~ provisional   X FAIL   ? not checked   ! run failed   - invalid"
 #define CZ_SWEEP_BEYOND                                                                            \
     "Override: some points went beyond model validity (" CZ_FIGURE_MARK_MEANS ")."

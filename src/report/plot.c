@@ -85,7 +85,7 @@ void cz_svg_text(CzMarkup *markup, double x, double y, const char *anchor, const
     cz_markup_write(markup, " fill='currentColor'>%s</text>", text);
 }
 
-/* Where numbers lie on the paper. */
+/* Scale of the drawing. */
 typedef struct Frame {
     double x_min, x_max, y_min, y_max; /* range of the axes */
     double width, height;              /* between the axes */
@@ -306,7 +306,7 @@ static void write_curves(const CzPlot *plot, const Frame *frame, CzMarkup *marku
 /* ---- legend ---- */
 
 typedef struct Legend {
-    CzMarkup *markup; /* NULL: only the place is counted */
+    CzMarkup *markup; /* NULL: only the height is computed */
     double x, y;      /* of the sample of the next entry, and of its text */
 } Legend;
 
@@ -357,7 +357,7 @@ static bool is_named_before(const CzPlot *plot, int band) {
     return false;
 }
 
-/* Writes the legend from `top` on, or only counts its height. */
+/* Writes the legend from `top` on, or only computes its height. */
 static double write_legend(const CzPlot *plot, double top, CzMarkup *markup) {
     Legend legend = {markup, LEFT, top + 12};
     for (int i = 0; i < plot->n_series; i++)

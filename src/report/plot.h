@@ -22,7 +22,7 @@ typedef struct CzSeries {
                                           none; x_channel NULL: time */
     int n;
     const double *x, *y; /* (n) */
-    int colour;          /* counted on beyond CZ_PLOT_N_COLOUR, or CZ_PLOT_QUIET */
+    int colour;          /* index, repeated beyond CZ_PLOT_N_COLOUR, or CZ_PLOT_QUIET */
     int dash;            /* 0 solid, 1 dashed, 2 dotted, 3 dash-dotted */
 } CzSeries;
 
@@ -58,8 +58,8 @@ void cz_plot_write_figure(const CzPlot *plot, CzMarkup *markup);
 
 /* Begins a file that is one figure, which has a white background. */
 void cz_svg_begin_document(CzMarkup *markup);
-/* Opens an `svg` of that size with what every figure has; the caller may add attributes, ends the
- * tag, and closes the element. */
+/* Opens an `svg` of that size with the attributes of every figure; the caller may add attributes,
+ * ends the tag, and closes the element. */
 void cz_svg_open(CzMarkup *markup, const char *title, double width, double height);
 /* The same for n tiles in rows of two, each as wide as a diagram, of that height and with a
  * heading; opens tile i with its heading, `inset` from the left. */

@@ -15,12 +15,12 @@
 
 #include <string.h>
 
-/* Everything that the files are made of. */
+/* Everything from which the files are written. */
 typedef struct Results {
     const CzReport *report;
     CzReport run;              /* of a search, the run of its best design */
-    const CzProblem *computed; /* what the runs were computed from: of a search, the problem with
-                                  the best values; NULL when it cannot be read again */
+    const CzProblem *computed; /* problem of the runs: for a search the one with the best values;
+                                  NULL when it cannot be read again */
     int scenario;              /* of the file that is written */
     bool is_top;               /* its files are at the top of the folder */
     const char *folder;        /* final path */
@@ -154,7 +154,7 @@ static CzStatus write_file(CzFolder *folder, const char *name, Content content,
     FILE *stream = NULL;
     CZ_TRY(cz_folder_open(folder, name, &stream, error));
     const CzStatus status = write_content(results, content, stream, error);
-    /* What could not be written is reported with the name of the file. */
+    /* A failure of writing is reported with the name of the file. */
     const bool reports = status == CZ_OK || status == CZ_STATUS_OUTPUT;
     const CzStatus closed = cz_folder_close(folder, reports ? error : NULL);
     return status != CZ_OK ? status : closed;
@@ -201,7 +201,7 @@ static CzStatus write_profiles(CzFolder *folder, Results *results, CzError *erro
     return CZ_OK;
 }
 
-/* Time histories that a fit follows, as resolved.yaml names them. */
+/* Measured time histories of a fit, under the names in resolved.yaml. */
 static CzStatus write_measured(CzFolder *folder, Results *results, CzError *error) {
     char name[256];
     for (int number = 1;; number++) {

@@ -1,4 +1,4 @@
-/* The list of results as a table, and the values in it that are no member of a record. */
+/* The list of results as a table, and its values that are computed and not stored in a record. */
 #include "report/results.h"
 
 #include "evaluate/evaluator.h"
@@ -29,7 +29,7 @@ static const char *or_null(const char *text) {
     return text[0] != '\0' ? text : NULL;
 }
 
-/* Of a run, an evaluation or a verification. */
+/* Word for the status of a run, an evaluation or a verification. */
 static const char *status_word(CzStatus status) {
     return status == CZ_OK ? "completed" : "failed";
 }
@@ -60,7 +60,7 @@ static const char *warning_of_run(const CzRunSummary *run, int n) {
     return NULL;
 }
 
-/* Those of the problem file, then those of the runs. */
+/* Warnings of the problem file, then those of the runs. */
 static const CzError *warning(CzResultContext *context, int index) {
     const CzEvaluation *evaluation = context->evaluation;
     if (index < cz_problem_n_warning(context->problem))
@@ -151,7 +151,7 @@ static const char *where_of(const CzCheckResult *check) {
     return check != &no_check ? check->where : NULL;
 }
 
-/* Values of a further parameter set, which its objective is known by. */
+/* Values of a further parameter set, given by the address of its objective. */
 static const double *alternative_of(const CzOutcome *outcome, const double *objective) {
     return &outcome
                 ->alternative[(objective - outcome->alternative_objective) * outcome->n_variable];
@@ -173,7 +173,7 @@ static int n_varied(const CzOutcome *outcome) {
     return n;
 }
 
-/* The variable that an increment belongs to. */
+/* The variable of an increment. */
 static int variable_of(const CzResultContext *context, const double *increment) {
     return (int)(increment - context->report->outcome->sensitivity_increment);
 }
@@ -185,7 +185,7 @@ static double margin_change(const CzResultContext *context, const double *increm
                 ->constraint_change[variable_of(context, increment) * n_constraint + constraint];
 }
 
-/* The run of a compared one that is compared; NULL when none was kept. */
+/* Summary of the compared scenario of a run; NULL when none was kept. */
 static const CzRunSummary *summary_of(const CzResultContext *context, const CzReportRun *run) {
     return cz_compared_run(context->report, (int)(run - context->report->compared));
 }
@@ -196,7 +196,7 @@ static const CzCheckResult *check_in_run(const CzResultContext *context, const C
     return check != NULL ? check : &no_check;
 }
 
-/* ---- functions that read what a line gives by an expression ---- */
+/* ---- functions that evaluate the expression of a line ---- */
 
 #define READER(type, what, record, key, expression)                                                \
     static type what##_##record##_##key(CzResultContext *context, const void *data) {              \

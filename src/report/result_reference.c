@@ -6,7 +6,7 @@
 #include <ctype.h>
 #include <string.h>
 
-/* Documents, by the word behind "crushzone." in their format. */
+/* Names of the documents: the word after "crushzone." in their format. */
 static const char *const documents[CZ_N_REPORT] = {
     [CZ_REPORT_RUN] = "summary",           [CZ_REPORT_SEARCH] = "outcome",
     [CZ_REPORT_SWEEP] = "sweep",           [CZ_REPORT_VERIFICATION] = "verification",
@@ -22,7 +22,7 @@ static bool is_written(const CzResult *result) {
     return result->form != CZ_FORM_UNWRITTEN;
 }
 
-/* Type of a value that is no record, in the word of JSON schemas. */
+/* Type of a value that is not a record, as JSON schemas name it. */
 static const char *type_of(const CzResult *result) {
     switch (result->form) {
     case CZ_FORM_FLAG:
@@ -53,7 +53,7 @@ static bool may_be_null(const CzResult *result) {
 
 /* ---- schema ---- */
 
-/* Marks a record and all that are in it. */
+/* Marks a record and all records in it. */
 static void mark(CzRecord record, bool is_in[CZ_N_RECORD]) {
     if (is_in[record])
         return;

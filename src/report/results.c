@@ -19,7 +19,7 @@ static long whole_of(const CzResult *result, CzResultContext *context, const voi
                                                   : *(const long *)stored(result, record);
 }
 
-/* Its n-th number in its unit. */
+/* The n-th number of a result, in its unit. */
 static double number_at(const CzResult *result, CzResultContext *context, const void *record,
                         int n) {
     if (result->form == CZ_FORM_WHOLE)

@@ -29,8 +29,8 @@ typedef struct CzRunInfo {
     int n_job;              /* 0 when unknown */
 } CzRunInfo;
 
-/* The results that a document or a table is written from, and the state while it is written. Only
- * what it needs is set. */
+/* Sources of a document or a table, and the state while it is written. Only the sources that it
+ * needs are set. */
 typedef struct CzResultContext {
     const CzReport *report;
     const CzProblem *problem;
@@ -42,12 +42,12 @@ typedef struct CzResultContext {
     int n_order;             /* sources of a budget that are written, and in which order; */
     const int *order;        /* NULL: all of them, in their own */
     int index;               /* of the item of a list that is being written */
-    CzRunInfo info;          /* made when requested, until the next is; so are the others */
+    CzRunInfo info;          /* filled for each request, as are the others */
     CzError warning;
     char format[32], text[64];
 } CzResultContext;
 
-/* What a result is, or each item of a list. */
+/* Form of a result, or of each item of a list. */
 typedef enum CzResultForm {
     CZ_FORM_UNWRITTEN, /* in no document */
     CZ_FORM_NUMBER,
@@ -61,7 +61,7 @@ typedef enum CzResultForm {
 /* How a number is printed in tables. */
 typedef enum CzResultFormat { CZ_FORMAT_PLAIN, CZ_FORMAT_ROUND, CZ_FORMAT_PERCENT } CzResultFormat;
 
-/* What a member of a record holds. */
+/* C type of a member of a record. */
 typedef enum CzStored {
     CZ_STORED_NOTHING,
     CZ_STORED_DOUBLE,
@@ -79,16 +79,16 @@ typedef struct CzResult {
     CzRecord record;
     const char *key;
     CzResultForm form;
-    bool is_exact;        /* typed, or measures an error, so that it keeps its size; figure.h */
+    bool is_exact;        /* typed, or an error measure: never rounded to 0 (figure.h) */
     bool is_total;        /* blank where a part of the run lies beyond model validity */
     bool is_null_below_0; /* of WHOLE */
-    bool is_spread;       /* its records are in the record itself, by their names */
+    bool is_spread;       /* its records are members of the record itself, by name */
     struct {              /* the member that it is stored in */
         CzStored stored;
         size_t offset;
         int n; /* values of an array; 0: no array */
     } member;
-    union { /* the function that reads it or an item of it where no member has it, by the form */
+    union { /* function that returns the value or an item, where it is not stored in a member */
         double (*real)(CzResultContext *context, const void *record);
         bool (*flag)(CzResultContext *context, const void *record);
         long (*whole)(CzResultContext *context, const void *record);

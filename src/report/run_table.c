@@ -73,7 +73,7 @@ static void write_run_head(const CzProblem *problem, const CzRunSummary *run,
     fputc('\n', terminal->stream);
 }
 
-/* Devices that bottomed out or sheared off at an interface, and when. */
+/* Devices that bottomed out or sheared off at an interface, with the time. */
 static void describe_damage(const CzRunSummary *run, int interface, size_t room, char *text) {
     size_t used = 0;
     text[0] = '\0';
@@ -137,7 +137,7 @@ static void write_interfaces(const CzRunSummary *run, bool compact, CzTerminal *
     cz_table_write_text(&table, terminal);
 }
 
-/* Wheel lift and override belong to the run as a whole. */
+/* Writes wheel lift and override, which are results of the whole run. */
 static void write_climbing(const CzRunSummary *run, CzTerminal *terminal) {
     char time[CZ_FIGURE_ROOM];
     for (int i = 0; i < run->n_event; i++) {
@@ -174,7 +174,7 @@ static const CzRunSummary *member_of(const CzProblem *problem, const CzEvaluatio
     return own != NULL && strcmp(own, family) == 0 ? run : NULL;
 }
 
-/* The check of a family that is nearest to failing, or fails; NULL when none was made. */
+/* The check of a family with the smallest margin; NULL when there is none. */
 static const CzCheckResult *worst_check(const CzEvaluation *evaluation, const char *family) {
     const CzCheckResult *worst = NULL;
     for (int i = 0; i < evaluation->n_check; i++) {
@@ -218,7 +218,7 @@ static void write_family(const CzProblem *problem, const CzEvaluation *evaluatio
     fputc('\n', terminal->stream);
 }
 
-/* Whether a run is printed: each outside a family, and the worst member of each family. */
+/* Whether a run is printed: runs outside families, and the worst member of each family. */
 static bool is_printed(const CzProblem *problem, const CzEvaluation *evaluation, int index) {
     const char *family = family_of(problem, cz_kept_run(evaluation, index)->scenario);
     return family == NULL || worst_member(problem, evaluation, family) == index;

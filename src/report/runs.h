@@ -11,7 +11,7 @@ static inline const CzRunSummary *cz_kept_run(const CzEvaluation *evaluation, in
     return cz_run_summary(evaluation->run[scenario]);
 }
 
-/* How many there are. */
+/* Number of these runs. */
 static inline int cz_n_kept_run(const CzEvaluation *evaluation) {
     int n = 0;
     for (int i = 0; i < evaluation->n_run; i++)

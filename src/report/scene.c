@@ -1,7 +1,7 @@
 /* A side view: body, crush zones, anti-climbers, couplers, bogies and wheels of each car.
  *
  * Lengths and heights at rest are to scale; vertical movement and pitch are magnified, so that
- * millimetres show. Floor and roof are drawn at usual heights, which the model does not have.
+ * millimetres show. Floor and roof are drawn at usual heights, because the model has none.
  */
 #include "report/scene.h"
 
@@ -167,7 +167,7 @@ static double tip_of(const CzPage *page, int car, int side, int sample) {
     return own.pivot + fmin(length, fmax(apart, 0) * length / sum);
 }
 
-/* What the script needs to move a car: its place at rest, and the ends of its parts. */
+/* Data for the script that moves a car: its place at rest, and the ends of its parts. */
 static void write_places(const CzPage *page, int car, const Outline outline[2], double cg,
                          CzMarkup *markup) {
     cz_markup_write(markup, " data-car='%s' data-at='%.4f' data-cg='%.3f'",

@@ -1,4 +1,4 @@
-/* A page or a figure by itself, for callers of the library and for papers. */
+/* A single page or figure, for callers of the library and for publications. */
 #include "crushzone/report.h"
 
 #include "base/error.h"

@@ -56,8 +56,8 @@ typedef struct CzReportTable {
 void cz_table_begin(CzReportTable *table, const char *heads);
 void cz_table_head(CzReportTable *table, const char *head);
 
-/* Appends a cell; a row that is full is followed by the next. Control characters become '?'; NULL
- * is empty. */
+/* Appends a cell; after the last column it begins a new row. Control characters become '?'; NULL is
+ * empty. */
 void cz_table_put(CzReportTable *table, const char *text);
 void cz_table_put_styled(CzReportTable *table, const char *text, CzStyle style);
 void cz_table_put_format(CzReportTable *table, const char *format, ...)
@@ -70,7 +70,7 @@ void cz_table_put_range(CzReportTable *table, double start, double best);
 /* Frees a table that is not written. */
 void cz_table_free(CzReportTable *table);
 
-/* Zero-initialise it and set the first two. */
+/* Zero-initialise it and set the first two members. */
 typedef struct CzTerminal {
     FILE *stream;
     bool colour; /* escape codes are allowed */

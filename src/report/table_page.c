@@ -34,7 +34,7 @@ static void write_range(CzMarkup *markup, const double share[2]) {
     cz_markup_write(markup, "</svg>");
 }
 
-/* A head, which may be broken behind the dots of a path. */
+/* A head, which may be wrapped after the dots of a path. */
 static void write_head(CzMarkup *markup, const char *text, bool is_number) {
     cz_markup_write(markup, is_number ? "<th class='number'>" : "<th>");
     while (*text != '\0') {

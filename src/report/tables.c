@@ -1,4 +1,4 @@
-/* Tables for a terminal: which function writes those of each kind of results. */
+/* Tables for a terminal: the function for each kind of results. */
 #include "report/tables.h"
 
 #include "base/error.h"

@@ -227,7 +227,7 @@ static void clear_folder(const char *path) {
         return;
     const int descriptor = cz_temporary_take(marker_path);
     if (descriptor < 0) {
-        (void)rmdir(path); /* its maker died before it created the marker, or is trying again */
+        (void)rmdir(path); /* the process died before it created the marker, or is trying again */
         return;
     }
     char *marker = cz_marker_read(path);

@@ -1,9 +1,10 @@
-/* Temporary files and folders beside their final path: with unique names, locked by their maker.
+/* Temporary files and folders beside their final path: with unique names, locked by the process
+ * that creates them.
  *
- * A name is .crushzone- and sixteen digits and letters, whatever the length of the final name. The
- * maker holds a lock on the file, or on the marker in the folder. The system releases the lock when
- * the maker dies, so another process that gets the lock may remove the file or folder. Process
- * numbers do not suffice: in a container the next run may have the number of the last.
+ * A name is .crushzone- and sixteen digits and letters, whatever the length of the final name. That
+ * process holds a lock on the file, or on the marker in the folder. The system releases the lock
+ * when the process dies, so another process that gets the lock may remove the file or folder.
+ * Process numbers do not suffice: in a container the next run may have the number of the last.
  */
 #ifndef CZ_REPORT_TEMPORARY_H
 #define CZ_REPORT_TEMPORARY_H
@@ -36,7 +37,7 @@ CZ_MUST_CHECK CzStatus cz_path_in(char path[PATH_MAX], const char *folder, const
  * CZ_STATUS_NO_MEMORY. */
 CzStatus cz_cannot_write(const char *path, int why, CzError *error);
 
-/* These return 0, or the errno of what could not be done. */
+/* These return 0, or the errno of the failure. */
 
 /* A name that is not used yet. */
 int cz_temporary_name(const char *folder, char path[PATH_MAX]);
@@ -52,7 +53,8 @@ int cz_temporary_folder(const char *folder, char path[PATH_MAX], FILE **marker);
  * folders. Links are removed, not followed. */
 void cz_remove_listed(const char *folder);
 
-/* Whether a name is that of a temporary file or folder; looks at each of these in a folder. */
+/* Whether a name is that of a temporary file or folder; passes each of these in a folder to `look`.
+ */
 bool cz_is_temporary(const char *name);
 typedef void CzLook(const char *path, const struct stat *info, void *data);
 void cz_each_temporary(const char *folder, CzLook *look, void *data);
@@ -62,7 +64,7 @@ void cz_each_temporary(const char *folder, CzLook *look, void *data);
 char *cz_marker_read(const char *folder);
 
 /* Whether the folder of a marker is complete; whether one of its lines is `what`, the name, and
- * then `end`. */
+ * `end`. */
 bool cz_marker_is_whole(const char *marker);
 bool cz_marker_lists(const char *marker, const char *what, const char *name, char end);
 

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_ROWS = 12 }; /* the others change less and are in the JSON document */
+enum { MOST_ROWS = 12 }; /* the rest changes less and is in the JSON document */
 
 static double largest_of(const CzVerifiedValue *value) {
     double largest = 0.0;

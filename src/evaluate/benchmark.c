@@ -1,5 +1,5 @@
-/* Times of the scenarios of a problem: everything once in each round, so that other work on the
- * machine affects all alike. */
+/* Times of the scenarios of a problem: each round runs every scenario once, so that other work on
+ * the machine affects all of them equally. */
 #include "crushzone/benchmark.h"
 
 #include <stdio.h>

@@ -1,4 +1,4 @@
-/* Candidate changes: the records that hold a value, and its change. */
+/* Candidate changes: the records with a value, and its change. */
 #include "evaluate/candidate_changes.h"
 
 #include <math.h>
@@ -75,7 +75,8 @@ static void add_of_end(Records *records, CandidatePlace place, CzEnd *end) {
         add(records, coupler, true);
 }
 
-/* Only full vehicles can climb. */
+/* The records of one kind in a vehicle; none unless it is full, since only full vehicles can
+ * climb. */
 static Records records_of(CandidatePlace place, CzVehicle *vehicle) {
     Records records = {0};
     if (vehicle->model != CZ_MODEL_FULL)
@@ -107,7 +108,7 @@ bool cz_candidate_find(int kind, const CzVehicle *vehicles, int n_vehicle,
     const CzUnit *unit = NULL;
     const CzKey *key = cz_record_match(&cz_records[found->record], found->key, &unit);
     for (int v = 0; v < n_vehicle; v++) {
-        CzVehicle vehicle = vehicles[v]; /* a copy, because places are found for writing too */
+        CzVehicle vehicle = vehicles[v]; /* a copy, because the places returned are writable */
         const Records records = records_of(found->place, &vehicle);
         for (int i = 0; i < records.n; i++) {
             const double value = *field_of(records.record[i], key);

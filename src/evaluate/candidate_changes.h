@@ -1,4 +1,4 @@
-/* Candidate changes: one value of the vehicles, changed in all of them alike. */
+/* Candidate changes: one value of the vehicles, changed in all of them by the same share. */
 #ifndef CZ_EVALUATE_CANDIDATE_CHANGES_H
 #define CZ_EVALUATE_CANDIDATE_CHANGES_H
 

@@ -32,10 +32,10 @@ static CzStatus append(Builder *builder, const CzCheck *check) {
     return CZ_OK;
 }
 
-/* ---- limits that are written down ------------------------------------------------------------ */
+/* ---- limits of profile and user ------------------------------------------------------------ */
 
-/* A limit without scenarios holds in all but the overload cases, which are judged for bottoming out
- * only, and scenarios that list other checks in judged_by. */
+/* A limit without scenarios applies in all scenarios except overload cases, which are judged for
+ * bottoming out only, and scenarios that list other checks in judged_by. */
 static bool holds_in(const CzLimit *limit, const CzScene *scene) {
     bool is_named = false;
     for (int i = 0; i < limit->scenarios.n_text; i++)
@@ -181,7 +181,7 @@ static void note_end(const CzVehicle *vehicle, const CzEnd *end, bool has[N_NEED
     has[FACE] |= end->anti_climber.given && vehicle->model == CZ_MODEL_FULL;
 }
 
-/* What the vehicles of the problem have. */
+/* Finds the equipment of the vehicles of the problem. */
 static void note_needs(const Builder *builder, bool has[N_NEEDS]) {
     has[NOTHING] = true;
     for (int s = 0; s < builder->n_scene; s++) {
@@ -229,8 +229,8 @@ static CzStatus append_rule(Builder *builder, const Rule *rule) {
     return CZ_OK;
 }
 
-/* Largest closing speed up to a bound among the scenarios that every check judges, 0 when there is
- * none [m/s]. */
+/* Largest closing speed up to a bound among the scenarios to which all checks apply, 0 when there
+ * is none [m/s]. */
 static double fastest_up_to(const Builder *builder, double bound) {
     double fastest = 0;
     for (int s = 0; s < builder->n_scene; s++) {
@@ -251,14 +251,14 @@ static bool covers_overload(const Builder *builder) {
     return false;
 }
 
-/* Whether a scenario lies clearly between the service speed and the fastest. */
+/* Whether the speed of a scenario is clearly between the service speed and the fastest. */
 static bool covers_between(const Builder *builder) {
     const double fastest = fastest_up_to(builder, INFINITY);
     const double between = fastest_up_to(builder, 0.95 * fastest);
     return fastest <= 1.1 * service_speed || between > 1.05 * service_speed;
 }
 
-/* Rules without a scenario that they need are listed as not checked. */
+/* Lists rules without their required scenario as not checked. */
 static CzStatus append_missing_scenarios(Builder *builder, const bool has[N_NEEDS]) {
     if (!covers_overload(builder))
         CZ_TRY(append_missing(builder, "bottoming out under overload",
@@ -299,9 +299,9 @@ static CzStatus append_rule_of_files(Builder *builder, const char *name, const C
     return append(builder, &check);
 }
 
-/* Every design must be one that a problem file may hold. The file's own values are, so these checks
- * are not listed. Each rule that a variable can break has a name; the last check is for all rules
- * of the reader. */
+/* Every design must be valid in a problem file. The file's own values are, so these checks are not
+ * listed. Each rule that a variable can violate has a name; the last check is for all rules of the
+ * reader. */
 static CzStatus append_rules_of_files(Builder *builder) {
     CzMetric metric = {.selector = "*"};
     for (int rule = 0; rule < CZ_N_VALUE_RULE; rule++) {

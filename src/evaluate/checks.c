@@ -1,11 +1,11 @@
-/* Checks: judging values against limits. */
+/* Checks: compares values with limits. */
 #include "evaluate/checks.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* Margins of a yes or no in a search. They are a step, which no search can follow; the direction
- * comes from the continuous checks beside it. */
+/* Margins of a yes or no in a search. A step gives a search no direction; the continuous checks
+ * next to it do. */
 static const double satisfied_flag = 1, broken_flag = -0.01;
 
 /* A margin below this is rounding error and counts as 0. */
@@ -60,7 +60,7 @@ CzCheckResult cz_check_judge(const CzCheck *check, const CzSubject *subject, con
     }
     const double margin = margin_of(value.value, check->limit, check->is_minimum, check->scale);
     const bool fails = margin < 0;
-    if (value.known == CZ_UNKNOWN && !fails) { /* a failure elsewhere stays one */
+    if (value.known == CZ_UNKNOWN && !fails) { /* a failure at another place remains a failure */
         memcpy(result.where, value.unknown_where, sizeof result.where);
         return result;
     }
@@ -87,12 +87,12 @@ double cz_check_constraint(const CzCheckResult *result, double required_margin) 
         return NAN;
     if (!isnan(result->margin))
         return required_margin - result->margin;
-    const bool fails =
-        result->verdict == CZ_VERDICT_FAIL; /* else satisfied, or without a subject */
+    const bool fails = result->verdict == CZ_VERDICT_FAIL; /* else satisfied, or not applicable */
     return required_margin - (fails ? broken_flag : satisfied_flag);
 }
 
-/* Whether a check holds when it holds at each place, as it does when the worst place counts. */
+/* Whether a check is satisfied exactly when it is satisfied at each place, as when the worst place
+ * counts. */
 static bool is_by_place(const CzCheck *check) {
     const CzAggregate aggregate = check->metric.aggregate;
     return check->scenario != CZ_NO_SCENARIO &&

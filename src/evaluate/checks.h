@@ -21,7 +21,7 @@ typedef struct CzCheck {
     bool is_minimum;
     double scale; /* smallest scale of the margin */
     const char *profile, *clause, *source, *confidence;
-    const char *missing; /* why it cannot be checked in this problem; NULL otherwise */
+    const char *missing; /* reason why it cannot be checked in this problem; NULL otherwise */
     bool is_target;      /* a constraint of the optimiser only, not listed */
     bool is_rule;        /* a rule of problem files, for any design */
     bool is_provisional; /* the limit is unconfirmed */
@@ -43,19 +43,19 @@ CZ_MUST_CHECK CzStatus cz_checklist_build(const CzProblem *problem, int n_scene,
                                           const CzScene *scene, CzArena *arena,
                                           CzChecklist *checklist, CzError *error);
 
-/* Judges one check. `subject` has the run of the check's scenario, NULL run when there is none;
+/* Evaluates one check. `subject` has the run of the check's scenario, NULL when there is none;
  * `failure` is then the reason, NULL otherwise. */
 CzCheckResult cz_check_judge(const CzCheck *check, const CzSubject *subject, const char *failure);
 
-/* Blanks a total of a run that went beyond the model's validity. */
+/* Blanks the value of a check of a total, in a run beyond model validity. */
 void cz_check_blank_total(const CzCheck *check, CzCheckResult *result);
 
 /* Constraint of a judged check: at most 0 when satisfied; NaN when it could not be checked. */
 double cz_check_constraint(const CzCheckResult *result, double required_margin);
 
-/* A check place by place. n_detail is how many places it has in a scene, 0 for a yes or no, 1 when
- * a sum or mean counts; details writes as many constraints, -1 where it does not apply, and returns
- * their number. */
+/* A check place by place. n_detail returns the number of its places in a scene, 0 for a yes or no,
+ * 1 for a sum or mean; details writes as many constraints, -1 where the check does not apply, and
+ * returns their number. */
 int cz_check_n_detail(const CzCheck *check, const CzScene *scene);
 int cz_check_details(const CzCheck *check, const CzSubject *subject, double required_margin,
                      double *detail);

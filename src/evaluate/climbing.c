@@ -5,14 +5,14 @@
 
 #include "evaluate/compose.h"
 
-/* Metrics that climbing is judged by, with the limit where the problem has none on a metric of the
- * group: EN 15227 limits the lift of a wheel to 75 % of its flange, the others are ours, as in the
- * design rules. */
+/* Metrics for judging climbing, with the limit that applies when the problem has none on a metric
+ * of the group: EN 15227 limits the lift of a wheel to 75 % of its flange, the others are ours, as
+ * in the design rules. */
 typedef struct Ground {
     int group;
     const char *metric, *name;
     bool is_minimum;
-    double limit; /* NaN: another metric of the group has the default */
+    double limit; /* NaN: another metric of the group has the default limit */
 } Ground;
 
 static const Ground grounds[] = {

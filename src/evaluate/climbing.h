@@ -6,14 +6,14 @@
 
 enum { CZ_MOST_CLIMBING_CHECKS = 32 };
 
-/* The checks that climbing is judged by in one scenario. */
+/* The checks for climbing in one scenario. */
 typedef struct CzClimbing {
     int scenario;
     int n_check;
     CzCheck check[CZ_MOST_CLIMBING_CHECKS];
 } CzClimbing;
 
-/* The problem's own limits in a scenario, and limits of ours where it has none. */
+/* The problem's own limits in a scenario, and default limits where it has none. */
 CzClimbing cz_climbing_of(const CzEvaluator *evaluator, int scenario);
 
 /* The judged check with the smallest margin. Its verdict is NOT CHECKED, with the reason, when one

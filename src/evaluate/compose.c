@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Why a scenario gives no values; NULL when it does. */
+/* Reason why a scenario has no values; NULL when it has. */
 static const char *failure_of(const CzRunSummary *run) {
     if (run == NULL)
         return "this scenario was not run";
@@ -57,12 +57,12 @@ static double metric_objective(const CzEvaluator *evaluator, const CzVehicle *ve
 }
 
 /* The smallest margin of all constraints, negative: the objective of a problem without `minimise`.
- * A yes or no has no margin, and a rule of files needs none. */
+ * A yes or no has no margin, and a rule of files requires none. */
 static double margin_objective(const CzEvaluator *evaluator, const CzEvaluation *evaluation) {
     double smallest = INFINITY;
     for (int j = 0; j < evaluation->n_constraint; j++) {
         const CzCheck *check = &evaluator->list.check[evaluator->constraint_check[j]];
-        if (check->scale != CZ_FLAG_SCALE && !check->is_rule) /* fmin passes over NaN */
+        if (check->scale != CZ_FLAG_SCALE && !check->is_rule) /* fmin ignores NaN */
             smallest = fmin(smallest, evaluation->constraint_check[j].margin);
     }
     return isinf(smallest) ? NAN : -smallest;
@@ -108,7 +108,7 @@ static void add_constraint(CzEvaluation *evaluation, const CzCheckResult *check,
     evaluation->violation = fmax(evaluation->violation, constraint);
 }
 
-/* Judges the checks and lists them, and the constraints of the optimiser among them. */
+/* Evaluates and lists the checks, and lists the constraints of the optimiser among them. */
 static void judge_checks(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                          const CzRunSummary *const *run, CzEvaluation *evaluation) {
     for (int i = 0; i < evaluator->list.n_check; i++) {
@@ -117,7 +117,7 @@ static void judge_checks(const CzEvaluator *evaluator, const CzVehicle *vehicles
         const CzSubject subject = subject_at(evaluator, vehicles, check->scenario, run);
         CzCheckResult result =
             cz_check_judge(check, &subject, is_of_run ? failure_of(subject.run) : NULL);
-        /* A search needs the number itself to get away from designs that climb. */
+        /* A search uses the number itself to leave designs that climb. */
         const double required = check->is_rule ? 0 : evaluator->list.required_margin;
         const double constraint = cz_check_constraint(&result, required);
         result.is_omitted = is_of_run && subject.run == NULL;
@@ -129,7 +129,7 @@ static void judge_checks(const CzEvaluator *evaluator, const CzVehicle *vehicles
     }
 }
 
-/* Why a match has no value; NULL when it has one. */
+/* Reason why a match has no value; NULL when it has one. */
 static const char *why_no_match(const CzMatchResult *match) {
     if (isnan(match->residual))
         return "this scenario gave no result";
@@ -139,7 +139,7 @@ static const char *why_no_match(const CzMatchResult *match) {
                              : "the run does not record it";
 }
 
-/* A match as a constraint that is kept within the tolerance. */
+/* A match as a constraint: its difference must stay within the tolerance. */
 static CzCheckResult check_of(const CzMatchResult *match) {
     const bool is_kept = fabs(match->residual) <= 1;
     const bool is_unknown = isnan(match->residual);
@@ -159,7 +159,7 @@ static CzCheckResult check_of(const CzMatchResult *match) {
     return check;
 }
 
-/* Judges the matches of a fit; each is one more check and constraint. */
+/* Evaluates the matches of a fit; each is a further check and constraint. */
 static CzStatus judge_matches(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                               const CzRunSummary *const *run, CzRun *const *whole,
                               CzEvaluation *evaluation, CzError *error) {
@@ -234,13 +234,13 @@ CzStatus cz_compose(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                                evaluator->objective.kind != NULL || evaluation->n_match > 0;
     if (failed)
         set_failed(evaluation);
-    else if (!isfinite(evaluation->objective)) /* unknown, which concerns a search only */
+    else if (!isfinite(evaluation->objective)) /* unknown, which is a failure in a search only */
         evaluation->objective = has_objective ? NAN : 0;
     evaluation->verdict = cz_verdict_over(evaluation, 0, NULL);
     return CZ_OK;
 }
 
-/* The residuals of a fit. */
+/* Computes the residuals of a fit. */
 static CzStatus compose_residuals(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                                   const CzRunSummary *const *run, CzRun *const *whole,
                                   double *detail, CzError *error) {

@@ -4,20 +4,19 @@
 
 #include "evaluate/evaluator_parts.h"
 
-/* What a metric is read from: a scenario with its run, or CZ_NO_SCENARIO and no run. */
+/* Source of metrics: a scenario with its run, or the design alone for CZ_NO_SCENARIO and no run. */
 CzSubject cz_subject_of(const CzEvaluator *evaluator, const CzVehicle *vehicles, int scenario,
                         const CzRunSummary *run);
 
-/* Fills an evaluation but for its runs. `vehicles` is the vehicle array with the design's values,
- * `run` (n_scene) with NULL for scenarios that were left out, `whole` the same runs with their
- * channels. A design is refused when it breaks a rule of files; nothing of it was run. Statuses:
- * CZ_OK, CZ_STATUS_INPUT for a match with a channel that the run does not have,
- * CZ_STATUS_NO_MEMORY. */
+/* Fills an evaluation except its runs. `vehicles` is the vehicle array with the design's values,
+ * `run` (n_scene) has NULL for scenarios that were left out, `whole` has the same runs with their
+ * channels. A refused design violates a rule of files and was not run. Statuses: CZ_OK,
+ * CZ_STATUS_INPUT for a match with a channel that the run does not have, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_compose(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                                   const CzRunSummary *const *run, CzRun *const *whole,
                                   bool is_refused, CzEvaluation *evaluation, CzError *error);
 
-/* Fills the details of a design whose runs all came to their end (n_detail); `whole` as above.
+/* Fills the details of a design whose runs were all completed (n_detail); `whole` as above.
  * Statuses: CZ_OK, CZ_STATUS_INPUT. */
 CZ_MUST_CHECK CzStatus cz_compose_details(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                                           const CzRunSummary *const *run, CzRun *const *whole,

@@ -1,4 +1,4 @@
-/* Design map: variables to places in the vehicle records. */
+/* Design map: assigns variables to places in the vehicle records. */
 #include "evaluate/design.h"
 #include "base/error.h"
 #include "base/increment.h"
@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What building needs at hand. */
+/* Context for building the map. */
 typedef struct Builder {
     const CzProblem *problem;
     const CzVehicle *vehicles; /* as written (n_vehicle) */
@@ -32,7 +32,7 @@ static bool same_number(double a, double b) {
     return a == b || (isnan(a) && isnan(b));
 }
 
-/* Whether two vehicles are written alike; one may be a copy with the same texts. */
+/* Whether two vehicles have the same values; one may be a copy with the same texts. */
 static bool vehicles_are_alike(const CzVehicle *a, const CzVehicle *b, bool mirrored) {
     return a->model == b->model && same_number(a->mass, b->mass) &&
            same_number(a->length, b->length) &&
@@ -53,7 +53,7 @@ static bool partner_is_alike(const CzScene *scene, bool mirrored) {
     return true;
 }
 
-/* Offset of the same place in a vehicle that is turned round. */
+/* Offset of the same place in a vehicle that is reversed. */
 static size_t mirrored_offset(size_t offset) {
     const size_t front = offsetof(CzVehicle, front), rear = offsetof(CzVehicle, rear);
     if (offset >= front && offset < front + sizeof(CzEnd))
@@ -63,8 +63,8 @@ static size_t mirrored_offset(size_t offset) {
     return offset;
 }
 
-/* The place in the partner that is the same as `place`; false when this vehicle has no twin in this
- * scene. */
+/* The place in the partner that corresponds to `place`; false when this vehicle has no identical
+ * partner in this scene. */
 static bool find_twin(const CzScene *scene, const CzDesignPlace *place, CzDesignPlace *twin) {
     const bool mirrored = partner_is_alike(scene, true);
     if (!mirrored && !partner_is_alike(scene, false))
@@ -88,7 +88,7 @@ static const char *name_of(const CzVehicle *vehicle) {
     return vehicle->name != NULL ? vehicle->name : "";
 }
 
-/* Whether a variable drives a place; one that chooses a buffer drives all that is in it. */
+/* Whether a variable sets a place; one that chooses a buffer sets all values in it. */
 static bool drives(const CzDesignVariable *variable, const CzDesignPlace *place) {
     const size_t size = variable->info.n_choice > 0 ? sizeof(CzBuffer) : 1;
     for (int i = 0; i < variable->n_place; i++)
@@ -109,8 +109,9 @@ static CzStatus add_place(const Builder *builder, CzDesignVariable *variable,
     return CZ_OK;
 }
 
-/* The drawn stroke of the anti-climber whose stroke a target is: a search lengthens a full car with
- * the stroke, and a file with that stroke must name the drawn one. NaN for any other number. */
+/* The drawn stroke of the anti-climber if the target is its stroke: a search lengthens a full car
+ * with the stroke, so a file with a new stroke must also give the drawn one. NaN for other
+ * numbers. */
 static double drawn_stroke(const Builder *builder, const CzTarget *target) {
     if (target->vehicle < 0 || builder->design->is_fit)
         return NAN;
@@ -138,7 +139,7 @@ static CzStatus add_shown(const Builder *builder, CzDesignVariable *variable,
     const double drawn = drawn_stroke(builder, target);
     for (int i = 0; i < variable->info.n_place; i++)
         if (strcmp(variable->info.place[i].path, path) == 0) {
-            if (!isnan(drawn)) /* a part of rigid and of full cars */
+            if (!isnan(drawn)) /* the part is used by rigid and by full cars */
                 variable->info.place[i].drawn_stroke = drawn;
             return CZ_OK;
         }
@@ -153,7 +154,8 @@ static CzStatus add_shown(const Builder *builder, CzDesignVariable *variable,
     return CZ_OK;
 }
 
-/* Fails where a variable changes one of two identical trains alone, which could soften the partner.
+/* Fails where a variable changes only one of two identical trains, because a search could then
+ * soften the partner.
  */
 static CzStatus check_twins(const Builder *builder, const void *field,
                             const CzDesignVariable *variable) {
@@ -173,7 +175,7 @@ static CzStatus check_twins(const Builder *builder, const void *field,
     return CZ_OK;
 }
 
-/* The place in the file that a variable's places are named at. */
+/* Field whose place in the file is reported for a variable. */
 static const void *field_of(const CzVariable *written) {
     return written->path != NULL ? (const void *)&written->path : (const void *)&written->paths;
 }
@@ -229,7 +231,8 @@ static CzStatus check_variable(const Builder *builder, const CzVariable *written
     return CZ_OK;
 }
 
-/* ---- one entry of the file may be several variables ------------------------------------------ */
+/* ---- an entry of the file may define several variables
+ * ------------------------------------------ */
 
 /* Name of a variable: as given, with a number when there are several; else its path. */
 static const char *name_variable(const Builder *builder, const CzVariable *written, int match,
@@ -244,7 +247,7 @@ static const char *name_variable(const Builder *builder, const CzVariable *writt
     return cz_arena_copy_text(builder->arena, text, strlen(text));
 }
 
-/* A variable whose bounds hold one value only does not vary. */
+/* A variable whose bounds allow one value only does not vary. */
 static void settle_fixed(CzVariableInfo *info) {
     const bool by_bounds = info->min == info->max;
     const bool by_step =
@@ -254,7 +257,7 @@ static void settle_fixed(CzVariableInfo *info) {
         info->fixed_at = by_bounds ? info->min : cz_increment_not_below(info->increment, info->min);
 }
 
-/* A start that misses a bound by a rounding error of units is moved to it. */
+/* A start outside a bound by a rounding error of units is moved to the bound. */
 static void settle_start(CzVariableInfo *info) {
     const double bounds[2] = {info->min, info->max};
     for (int i = 0; i < 2; i++)
@@ -269,7 +272,7 @@ static const CzTarget *first_of(const CzTarget *target, int match, int n_match) 
     return target;
 }
 
-/* Makes a variable the number of one of its choices; the file's own comes first. */
+/* Converts a variable to the number of one of its choices; the choice of the file is the first. */
 static CzStatus settle_choice(const Builder *builder, const CzVariable *written,
                               CzDesignVariable *variable) {
     CzVariableInfo *info = &variable->info;

@@ -1,10 +1,10 @@
-/* Design map: variables to places in the vehicle records.
+/* Design map: assigns variables to places in the vehicle records.
  *
  *   value of a place [SI] = variable [unit of its key] x SI value of one unit
  *
- * One variable may drive many places. The list of keys decides which may vary; a partner that is
- * the same train shares every variable, so that a search cannot soften it. Variables that choose a
- * part, and those of a fit, are settings of a problem that is reread (choices.c).
+ * One variable may set many places. The list of keys defines which keys may vary; an identical
+ * partner shares every variable, so that a search cannot soften it. Variables that choose a part,
+ * and those of a fit, are settings of a problem that is reread (choices.c).
  */
 #ifndef CZ_EVALUATE_DESIGN_H
 #define CZ_EVALUATE_DESIGN_H
@@ -15,14 +15,14 @@
 
 typedef struct CzDesignPlace {
     int vehicle;   /* index into the vehicle array; -1 for a number elsewhere, in a fit */
-    size_t offset; /* of the double, or of the buffer that is chosen, in CzVehicle [byte]; elsewhere
-                      what distinguishes it from others */
+    size_t offset; /* of the double, or of the chosen buffer, in CzVehicle [byte]; elsewhere a
+                      number that identifies the place */
     double scale;  /* SI value of one unit of the variable */
 } CzDesignPlace;
 
 typedef struct CzDesignVariable {
     CzVariableInfo info;
-    const void *start_field; /* of the input: where its start is written, else its bounds */
+    const void *start_field; /* field of the input with its start, else with its bounds */
     int n_place;
     CzDesignPlace *place; /* (n_place); those of `info` are as a file names them */
 } CzDesignVariable;
@@ -30,15 +30,16 @@ typedef struct CzDesignVariable {
 typedef struct CzDesign {
     int n_variable;
     CzDesignVariable *variable; /* (n_variable) */
-    bool is_fit; /* designs are reread: variables may be any number that may be fitted */
+    bool is_fit; /* designs are reread; variables may be any numbers that may be fitted */
 } CzDesign;
 
 /* Builds the map of a problem; no variables without `optimise:`. Memory comes from the arena.
- * Statuses: CZ_OK, CZ_STATUS_INPUT naming the variable that is no design, CZ_STATUS_NO_MEMORY. */
+ * Statuses: CZ_OK, CZ_STATUS_INPUT with the variable that is not a design variable,
+ * CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_design_build(const CzProblem *problem, int n_scene, const CzScene *scene,
                                        CzArena *arena, CzDesign *design, CzError *error);
 
-/* Whether every variable starts within its bounds, as a search needs. Statuses: CZ_OK,
+/* Checks that every variable starts within its bounds, as a search requires. Statuses: CZ_OK,
  * CZ_STATUS_INPUT with the place. */
 CZ_MUST_CHECK CzStatus cz_design_check_start(const CzProblem *problem, const CzDesign *design,
                                              CzError *error);
@@ -57,11 +58,11 @@ enum { CZ_MOST_COMBINATIONS = 64 };
 CZ_MUST_CHECK CzStatus cz_choice_settle(const CzProblem *problem, const CzDesignVariable *variable,
                                         int *own, CzError *error);
 
-/* Combinations of all choices: 1 without any. The first choice of the file counts fastest. */
+/* Combinations of all choices: 1 without any. The first choice of the file changes fastest. */
 int cz_design_n_combination(const CzDesign *design);
 /* Combination of a design; x is (n_variable). */
 int cz_design_combination(const CzDesign *design, const double *x);
-/* The choice that a variable makes in a combination. */
+/* The choice of a variable in a combination. */
 int cz_design_choice(const CzDesign *design, int combination, int variable);
 
 /* Settings of a combination, or with `x` of a whole design that is reread. Memory comes from the

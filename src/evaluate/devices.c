@@ -3,7 +3,7 @@
  *   length of a device  = installed length when declared, else stroke / efficiency
  *   anti-climber's path = gap + length + crush zone of the end
  *   coupler's path      = buffer stroke + lengths of its tubes  <=  pivot to face
- *   retraction          = stroke of anti-climber and end that the released coupler must follow
+ *   retraction          = stroke of anti-climber and end that the released coupler must yield
  */
 #include "evaluate/devices.h"
 
@@ -13,7 +13,7 @@
 
 enum { MOST_DEVICES = 4 }; /* of one end: two tubes, an anti-climber, a side buffer's tube */
 
-/* A place for a collapsing device of an end. */
+/* The collapsing device at a place of an end. */
 static CzDevice device_of(const CzEnd *end, int place) {
     const CzDevice devices[MOST_DEVICES] = {
         CZ_DEVICE(&end->coupler.tube), CZ_DEVICE(&end->coupler.second_tube),
@@ -73,7 +73,7 @@ double cz_retraction_used(const CzEnd *end) {
 static double backbone_force(const CzStage *stages, int n_stages, const CzTable *curve) {
     double force = 0;
     for (int i = 0; i < n_stages; i++)
-        force = fmax(fmax(force, stages[i].force), stages[i].end_force); /* passes over NaN */
+        force = fmax(fmax(force, stages[i].force), stages[i].end_force); /* ignores NaN */
     for (int i = 0; i < curve->n_point; i++)
         force = fmax(force, curve->y[i]);
     return force;
@@ -147,7 +147,7 @@ double cz_shear_off_over_strength(const CzEnd *end) {
     return coupler->shear_off.force / end->proof_strength;
 }
 
-/* A place for a device in a train, from the first vehicle on, rear before front. */
+/* The device at a place of a train, counted from the first vehicle, rear before front. */
 static CzDevice device_at(const CzVehicle *vehicle, int place) {
     const int i = place / MOST_DEVICES;
     return device_of(i % 2 == 0 ? &vehicle[i / 2].rear : &vehicle[i / 2].front,

@@ -9,13 +9,13 @@
  * parts crushing at `rate` [m/s]; 0 when it is absent [N]. */
 double cz_plastic_force(const CzEnd *end, CzElementKind kind, double rate);
 
-/* Each of these is a share that may be at most 1, NaN when an end declares too little for it. */
+/* Each of these is a ratio of at most 1, NaN when an end does not declare the values for it. */
 double cz_stroke_fit(const CzEnd *end);
 double cz_length_used(const CzEnd *end);
 double cz_coupler_length_used(const CzEnd *end);
 double cz_retraction_used(const CzEnd *end);
 
-/* The force ladder. `rate` is the crush rate that the tube's force is taken at [m/s]. */
+/* The force ladder. `rate` is the crush rate for the tube's force [m/s]. */
 double cz_tube_over_shear_off(const CzEnd *end, double rate);
 double cz_shear_off_over_strength(const CzEnd *end);
 

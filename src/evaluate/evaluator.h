@@ -9,15 +9,16 @@
 
 const CzProblem *cz_evaluator_problem(const CzEvaluator *evaluator);
 
-/* How the runs of a design are made. */
+/* How the runs of a design are computed. */
 typedef struct CzManner {
     double step_factor; /* factor on every time step */
     CzIntegrator integrator;
     CzTrackUse track;
-    bool brief; /* runs may end once they have settled; not those of a fit */
+    bool brief; /* runs may end as soon as their results are final; not those of a fit */
 } CzManner;
 
-/* Evaluates one design in another manner, with its runs kept but no channels; x as in cz_evaluate.
+/* Evaluates one design with other settings of the runs, which are kept without channels; x as in
+ * cz_evaluate.
  */
 CZ_MUST_CHECK CzStatus cz_evaluator_again(const CzEvaluator *evaluator, const CzManner *manner,
                                           const double *x, CzEvaluation *evaluation,
@@ -27,35 +28,35 @@ CZ_MUST_CHECK CzStatus cz_evaluator_again(const CzEvaluator *evaluator, const Cz
  * squares, and the last constraints are the matches. */
 bool cz_evaluator_is_fit(const CzEvaluator *evaluator);
 
-/* What a search makes of a constraint. */
+/* Treatment of a constraint in a search. */
 typedef enum CzConstraintKind {
     CZ_CONSTRAINT_GRADED,
     CZ_CONSTRAINT_FLAG,      /* a yes or no, or a match, which the objective contains */
     CZ_CONSTRAINT_RULES,     /* a yes or no on all rules of files */
-    CZ_CONSTRAINT_NAMED_RULE /* one of these rules, which the former covers */
+    CZ_CONSTRAINT_NAMED_RULE /* one of these rules, covered by the former kind */
 } CzConstraintKind;
 CzConstraintKind cz_evaluator_constraint_kind(const CzEvaluator *evaluator, int constraint);
 
-/* Whether every variable starts within its bounds, and the search at a design that a file may hold.
- * Statuses: CZ_OK, CZ_STATUS_INPUT with the place, CZ_STATUS_NO_MEMORY. */
+/* Checks that every variable starts within its bounds, and that the start is valid in a problem
+ * file. Statuses: CZ_OK, CZ_STATUS_INPUT with the place, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_evaluator_check_start(const CzEvaluator *evaluator, CzError *error);
 
-/* Combinations of the variables that choose, 1 without any; the numbers of one combination's
- * choices are written into a design x (n_variable), all else is left. */
+/* Combinations of the variables that choose, 1 without any; writes the choices of one combination
+ * into a design x (n_variable) and leaves the other variables unchanged. */
 int cz_evaluator_n_combination(const CzEvaluator *evaluator);
 void cz_evaluator_set_combination(const CzEvaluator *evaluator, int combination, double *x);
 
-/* Lets an evaluation end early, with CZ_STATUS_INTERRUPTED, once the flag is up; NULL: never. The
- * flag is borrowed. */
+/* Ends evaluations early, with CZ_STATUS_INTERRUPTED, when the flag is set; NULL: never. The flag
+ * is borrowed. */
 void cz_evaluator_set_stop(CzEvaluator *evaluator, const volatile sig_atomic_t *stop);
 
-/* Details are constraints place by place: smooth where the worst of all places has breakpoints.
- * Those that are a yes or no have none. The details of a fit are its residuals, whose squares add
- * up to the objective. */
+/* Details are constraints place by place: they are smooth where the worst of all places has
+ * breakpoints. A yes or no has none. The details of a fit are its residuals, whose squares add up
+ * to the objective. */
 int cz_evaluator_n_detail(const CzEvaluator *evaluator);
 
-/* As cz_evaluate without keeping runs, for a search: runs end once they have settled, and `detail`
- * (n_point x n_detail) gets the details, NaN for designs that failed. */
+/* As cz_evaluate without keeping runs, for a search: runs end as soon as their results are final,
+ * and `detail` (n_point x n_detail) gets the details, NaN for designs that failed. */
 CZ_MUST_CHECK CzStatus cz_evaluator_search(const CzEvaluator *evaluator, int n_point,
                                            const double *x, CzEvaluation *evaluation,
                                            double *detail, CzError *error);

@@ -1,4 +1,4 @@
-/* Building an evaluator, and what is known of it before a run. */
+/* Builds an evaluator, and returns its properties that are known before a run. */
 #include "evaluate/evaluator_parts.h"
 #include "base/error.h"
 #include "evaluate/tasks.h"
@@ -33,7 +33,7 @@ static CzStatus place_combination(const CzEvaluator *evaluator, const CzVariantS
     return status;
 }
 
-/* One variant for each combination of choices. */
+/* Builds one variant for each combination of choices. */
 static CzStatus build_variants(CzEvaluator *evaluator, CzError *error) {
     const CzDesign *design = &evaluator->design;
     CzArena *arena = &evaluator->arena;
@@ -100,7 +100,8 @@ static CzStatus list_constraints(CzEvaluator *evaluator, CzError *error) {
     return CZ_OK;
 }
 
-/* One detail per place of a constraint whose worst place counts, one for every other constraint. */
+/* Counts one detail per place of a constraint whose worst place counts, one for every other
+ * constraint. */
 static void count_details(CzEvaluator *evaluator) {
     for (int i = 0; i < evaluator->matches.n_item; i++)
         evaluator->n_detail += cz_match_n_detail(&evaluator->matches.item[i]);
@@ -225,8 +226,8 @@ void cz_evaluator_set_stop(CzEvaluator *evaluator, const volatile sig_atomic_t *
     evaluator->stop = stop;
 }
 
-/* Checks the vehicles at the start, with fixed variables at their value; those of a fit are checked
- * when its designs are reread. */
+/* Checks the vehicles at the start, with fixed variables at their value. Vehicles of a fit are
+ * checked when its designs are reread. */
 static CzStatus check_start_vehicles(const CzEvaluator *evaluator, CzError *error) {
     const CzDesign *design = &evaluator->design;
     const size_t n_vehicle = (size_t)evaluator->n_vehicle;

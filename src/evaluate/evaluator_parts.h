@@ -12,19 +12,18 @@ struct CzEvaluator {
     CzArena arena;
     const CzProblem *problem;
     int n_job;
-    CzManner manner; /* of runs that belong to no search */
+    CzManner manner; /* of runs outside a search */
     CzObstacles obstacles;
     int n_scene;
     CzScene *scene;            /* (n_scene) */
-    const char *only;          /* scenario that is run; NULL for all */
+    const char *only;          /* the only scenario that is run; NULL for all */
     int n_variant;             /* one per combination of choices, 1 without any */
     CzVariant *variant;        /* (n_variant) */
     int own;                   /* variant of the file as written */
     CzModel *const *model;     /* its models; NULL for scenarios left out (n_scene) */
-    const CzVehicle *vehicles; /* and its vehicles (n_vehicle) */
+    const CzVehicle *vehicles; /* its vehicles (n_vehicle) */
     int n_vehicle;
-    double rate; /* crush rate that tube forces are judged at: half the largest closing speed
-                    [m/s] */
+    double rate; /* crush rate for tube forces: half the largest closing speed [m/s] */
     CzDesign design;
     CzChecklist list;
     int *constraint_check;        /* check behind each constraint (n_constraint) */

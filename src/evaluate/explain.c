@@ -2,8 +2,8 @@
  * over one value at a time.
  *
  * Each value is changed by the steps of a list, up and down, and then between the last step that
- * keeps the verdict and the first that turns it. All candidates of a round are designs of one model
- * and run side by side in lanes.
+ * keeps the verdict and the first that changes it. All candidates of a round are designs of one
+ * model and run side by side in lanes.
  */
 #include "crushzone/explain.h"
 
@@ -33,19 +33,19 @@ enum {
 typedef struct Candidate {
     int kind;
     double change, value;
-    double margin; /* NaN when no file may hold it, or its run failed */
+    double margin; /* NaN when it is not valid in a file, or its run failed */
 } Candidate;
 
 typedef struct Search {
     const CzEvaluator *evaluator;
     const CzExplainOptions *options;
     CzClimbing climbing;
-    bool is_broken; /* the verdict to turn */
+    bool is_broken; /* the verdict to be changed */
     int n_candidate;
     Candidate *candidate; /* of the round (n_candidate) */
     int width;            /* designs of a batch */
     long n_run;
-    int n_all; /* candidates of all rounds at most */
+    int n_all; /* largest number of candidates of all rounds */
 } Search;
 
 CzExplainOptions cz_explain_options_default(void) {
@@ -58,7 +58,7 @@ static bool is_stopped(const CzExplainOptions *options) {
     return options->stop != NULL && *options->stop != 0;
 }
 
-/* Runs those candidates of a batch that a file may hold; `vehicles` has room for all. */
+/* Runs the candidates of a batch that are valid in a problem file; `vehicles` has room for all. */
 static CzStatus run_batch(const Search *search, Candidate *candidate, int n, CzVehicle *vehicles,
                           CzError *error) {
     const CzEvaluator *evaluator = search->evaluator;
@@ -81,7 +81,7 @@ static CzStatus run_batch(const Search *search, Candidate *candidate, int n, CzV
     }
     CzSimulateOptions options = cz_simulate_options_default();
     options.record = false;
-    options.brief = true; /* an override happens long before all wheels are at rest */
+    options.brief = true; /* an override occurs long before all wheels are at rest */
     const CzStatus status =
         n_design > 0 ? cz_simulate_batch(model, n_design, design, &options, run, error) : CZ_OK;
     for (int i = 0; i < n_design; i++) {
@@ -140,8 +140,8 @@ static bool is_better(const Search *search, double margin, double than) {
     return search->is_broken ? margin > than : margin < than;
 }
 
-/* Finds the smallest change that turns the verdict among candidates in one direction, in order of
- * size, after `start`, which does not turn it. */
+/* Finds the smallest change that changes the verdict among candidates in one direction, in order of
+ * size, after `start`, which does not. */
 static void find_change(const Search *search, const Candidate *candidate, int n, double start,
                         CzCandidateChange *varied) {
     double last = start;
@@ -164,7 +164,7 @@ static void find_change(const Search *search, const Candidate *candidate, int n,
     }
 }
 
-/* The steps of every value, up and down. */
+/* Tries the steps of every value, up and down. */
 static CzStatus try_steps(Search *search, int n, const int *kind, CzCandidateChange *varied,
                           CzError *error) {
     Candidate *candidate = calloc((size_t)n * 2 * N_STEP + 1, sizeof *candidate);
@@ -182,7 +182,7 @@ static CzStatus try_steps(Search *search, int n, const int *kind, CzCandidateCha
     return status;
 }
 
-/* Between the steps of every value that turns the verdict. */
+/* Tries values between the steps where the verdict changes. */
 static CzStatus refine(Search *search, int n, const int *kind, CzCandidateChange *varied,
                        CzError *error) {
     Candidate *candidate = calloc((size_t)n * N_BETWEEN + 1, sizeof *candidate);
@@ -210,7 +210,7 @@ static CzStatus refine(Search *search, int n, const int *kind, CzCandidateChange
         const Candidate *between = &candidate[i * N_BETWEEN];
         find_change(search, between, N_BETWEEN, before, found);
         if (found->not_yet == before && found->change != between[0].change)
-            found->not_yet = between[N_BETWEEN - 1].change; /* only the step itself turned it */
+            found->not_yet = between[N_BETWEEN - 1].change; /* only the step itself changed it */
     }
     free(candidate);
     free(of);
@@ -220,8 +220,8 @@ static CzStatus refine(Search *search, int n, const int *kind, CzCandidateChange
 /* ---- all candidate changes --------------------------------------------------------------------
  */
 
-/* Order of candidate changes: the smaller change that turns the verdict first, then the margin that
- * is nearer to turning it. */
+/* Order of candidate changes: first by the size of the change that changes the verdict, then by the
+ * margin. */
 static bool goes_before(const Search *search, const CzCandidateChange *a,
                         const CzCandidateChange *b) {
     if (a->turns != b->turns)
@@ -240,7 +240,8 @@ static void sort(const Search *search, int n, CzCandidateChange *varied) {
         }
 }
 
-/* Whether the run has an indicator of a cause; stops do not count, since any lift reaches them. */
+/* Whether the run has an indicator of a cause; stops do not count, since every lift reaches
+ * them. */
 static bool shows(const CzExplanation *explanation, CzCause cause) {
     for (int i = 0; i < explanation->n_indicator; i++)
         if (explanation->indicator[i].cause == cause && cause != CZ_CAUSE_SUSPENSION)
@@ -248,7 +249,7 @@ static bool shows(const CzExplanation *explanation, CzCause cause) {
     return false;
 }
 
-/* The candidate changes are in order of their changes. */
+/* Names the cause; the candidate changes are sorted. */
 static void name_cause(CzExplanation *explanation) {
     for (int pass = 0; pass < 2 && !explanation->has_cause; pass++)
         for (int i = 0; i < explanation->n_candidate && !explanation->has_cause; i++) {
@@ -287,7 +288,8 @@ static CzStatus search_changes(Search *search, CzExplanation *explanation, CzErr
     return status;
 }
 
-/* ---- indicators: events before the climb, and forces beyond what a part can carry ------------ */
+/* ---- indicators: events before the override, and forces above the capacity of a part
+ * ------------ */
 
 __attribute__((format(printf, 4, 5))) static void
 indicate(CzExplanation *explanation, CzCause cause, double time, const char *format, ...) {
@@ -302,7 +304,7 @@ indicate(CzExplanation *explanation, CzCause cause, double time, const char *for
     va_end(values);
 }
 
-/* Events that show a cause, with the sentence on their place. */
+/* Events that indicate a cause, with the sentence on their place. */
 static const struct {
     CzEventKind what;
     CzCause cause;
@@ -342,7 +344,7 @@ static void add_of_interface(CzExplanation *explanation, const CzInterfaceResult
                  interface->name);
 }
 
-/* Indicators of a run up to its climb, or over all of it when there is none. */
+/* Finds the indicators of a run up to its override, or over the whole run when there is none. */
 static void find_indicators(const CzRunSummary *run, CzExplanation *explanation) {
     const double until = run->beyond_validity ? run->beyond_validity_time : INFINITY;
     for (int i = 0; i < run->n_interface; i++)
@@ -354,7 +356,7 @@ static void find_indicators(const CzRunSummary *run, CzExplanation *explanation)
 
 /* ---- the run to explain ---------------------------------------------------------------------- */
 
-/* The vehicle that a place names: itself, or the one behind an interface. */
+/* The vehicle at a place: the vehicle of that name, or the one behind an interface. */
 static int vehicle_at(const CzRunSummary *run, const char *where) {
     for (int i = 0; i < run->n_vehicle; i++)
         if (strcmp(run->vehicle[i].name, where) == 0)

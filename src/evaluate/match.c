@@ -95,7 +95,7 @@ CzStatus cz_matches_build(const CzProblem *problem, int n_scene, const CzScene *
 
 /* ---- judging --------------------------------------------------------------------------------- */
 
-static CzStatus take_channel(const CzMatchItem *item, const CzSubject *subject, const CzRun *run,
+static CzStatus read_channel(const CzMatchItem *item, const CzSubject *subject, const CzRun *run,
                              const double **values, CzError *error) {
     *values = cz_run_channel(run, item->column.channel, item->column.place);
     if (*values != NULL)
@@ -110,8 +110,8 @@ static CzStatus take_channel(const CzMatchItem *item, const CzSubject *subject, 
                                     error);
 }
 
-/* Value of a channel at a time [s], on the line between its samples; NaN beyond the run. `from` is
- * a sample to begin at and is moved on, for times that rise. */
+/* Value of a channel at a time [s], by linear interpolation; NaN beyond the run. The search begins
+ * at sample `from`, which is advanced, since times rise. */
 static double value_at(const CzRun *run, const double *values, double time, int *from) {
     const double *t_ms = cz_run_channel(run, CZ_CHANNEL_TIME, 0);
     const int n = cz_run_n_sample(run);
@@ -135,8 +135,8 @@ int cz_match_n_detail(const CzMatchItem *item) {
     return item->measured->n_point < MOST_STRETCHES ? item->measured->n_point : MOST_STRETCHES;
 }
 
-/* The mean square difference; the mean difference of each stretch goes into its detail, so that
- * their squares add up to the square of the whole residual when stretches are short. */
+/* The mean square difference; the mean difference of each stretch is its detail, so that for short
+ * stretches the squares of the details add up to the square of the whole residual. */
 static void judge_history(const CzMatchItem *item, const CzRun *run, const double *values,
                           CzMatchResult *result, double *detail) {
     const CzMeasured *measured = item->measured;
@@ -202,7 +202,7 @@ CzStatus cz_match_judge(const CzMatchItem *item, const CzSubject *subject, const
     } else {
         const double *values = NULL;
         int from = 0;
-        CZ_TRY(take_channel(item, subject, run, &values, error));
+        CZ_TRY(read_channel(item, subject, run, &values, error));
         if (item->measured != NULL) {
             judge_history(item, run, values, result, detail);
         } else {

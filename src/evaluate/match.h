@@ -3,8 +3,8 @@
  *   residual = (value - measured) / tolerance,   of a time history the root of its mean square
  *   objective = sum of weight x residual^2
  *
- * A value that a run does not have counts as ten tolerances; of an event that does not happen, the
- * time from when it was measured to the end of the run counts where that is more.
+ * A value that a run does not have counts as ten tolerances. For an event that does not occur, the
+ * time from its measured time to the end of the run counts if it is more.
  */
 #ifndef CZ_EVALUATE_MATCH_H
 #define CZ_EVALUATE_MATCH_H
@@ -27,7 +27,7 @@ typedef struct CzMatchItem {
 typedef struct CzMatchList {
     int n_item;
     CzMatchItem *item; /* (n_item) */
-    bool needs_record; /* events and channels are there only when a run is recorded */
+    bool needs_record; /* events and channels exist only when a run is recorded */
 } CzMatchList;
 
 /* Lists the matches of a problem. Memory comes from the arena. Statuses: CZ_OK, CZ_STATUS_INPUT
@@ -35,16 +35,16 @@ typedef struct CzMatchList {
 CZ_MUST_CHECK CzStatus cz_matches_build(const CzProblem *problem, int n_scene, const CzScene *scene,
                                         CzArena *arena, CzMatchList *list, CzError *error);
 
-/* Residuals that a match is made of, with the root of its weight: one for a number, up to 100 for a
- * time history, each for a stretch of it. */
+/* Number of residuals of a match, scaled by the root of its weight: one for a number, up to 100 for
+ * a time history, each for a stretch of it. */
 int cz_match_n_detail(const CzMatchItem *item);
 
-/* A match of a run that does not have it: value and residual are NaN. */
+/* A match without a value in the run: value and residual are NaN. */
 CzMatchResult cz_match_begin(const CzMatchItem *item, const CzScene *scene);
 
-/* Judges one match. `subject` has the run's summary, `run` its channels. `detail` gets the
- * residuals it is made of (n_detail) unless it is NULL. Status: CZ_STATUS_INPUT for a channel that
- * the run does not have. */
+/* Evaluates one match. `subject` has the run's summary, `run` its channels. `detail` receives its
+ * residuals (n_detail) unless it is NULL. Status: CZ_STATUS_INPUT for a channel that the run does
+ * not have. */
 CZ_MUST_CHECK CzStatus cz_match_judge(const CzMatchItem *item, const CzSubject *subject,
                                       const CzRun *run, CzMatchResult *result, double *detail,
                                       CzError *error);

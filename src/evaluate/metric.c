@@ -11,8 +11,8 @@ static const double rounding = 1e-9;
 
 /* ---- reading the text ------------------------------------------------------------------------ */
 
-/* Cuts the word behind the last dot off a text and returns it. */
-static const char *take_last_word(char *text) {
+/* Removes the word after the last dot from a text and returns it. */
+static const char *cut_last_word(char *text) {
     char *dot = strrchr(text, '.');
     if (dot == NULL)
         return text;
@@ -20,7 +20,7 @@ static const char *take_last_word(char *text) {
     return dot + 1;
 }
 
-/* The aggregate that a word names; CZ_AGGREGATE_WORST when it is none. */
+/* The aggregate of a word; CZ_AGGREGATE_WORST when it is not an aggregate. */
 static CzAggregate aggregate_of(const char *word) {
     static const char *const words[] = {[CZ_AGGREGATE_MAX] = "max",
                                         [CZ_AGGREGATE_MIN] = "min",
@@ -51,7 +51,7 @@ CzStatus cz_metric_parse(const char *text, CzMetric *metric, CzError *error) {
         return cz_fail(error, CZ_STATUS_INPUT, "the metric '%.40s...' is longer than %d bytes",
                        text, CZ_PATH_ROOM - 1);
     snprintf(copy, sizeof copy, "%s", text);
-    metric->aggregate = aggregate_of(take_last_word(copy));
+    metric->aggregate = aggregate_of(cut_last_word(copy));
     if (metric->aggregate == CZ_AGGREGATE_WORST)
         snprintf(copy, sizeof copy, "%s", text);
     split_selector(copy, name, sizeof name, metric->selector, sizeof metric->selector);

@@ -1,4 +1,4 @@
-/* Metrics: what a text such as "interfaces.A4-B1.peak_force_kN" means, and its value.
+/* Metrics: meaning and value of a text such as "interfaces.A4-B1.peak_force_kN".
  *
  *   LEVEL [. SELECTOR] . NAME [. max|min|sum|mean]
  *
@@ -21,10 +21,9 @@ typedef struct CzMetricKind {
     bool is_total; /* adds up over the whole run */
     double scale;  /* smallest scale of a margin, in the unit; CZ_FLAG_SCALE for a yes or no */
     bool may_be_unknown;
-    const char *absent;                                   /* why it does not apply, or what is not
-                                                             declared */
+    const char *absent; /* reason why it does not apply, or the value that is not declared */
     double (*value)(const CzPlace *place);                /* SI */
-    void (*when)(const CzPlace *place, double window[2]); /* NULL when its time is not kept [s] */
+    void (*when)(const CzPlace *place, double window[2]); /* NULL when its time is not stored [s] */
     const char *doc;
 } CzMetricKind;
 
@@ -48,15 +47,15 @@ typedef struct CzMetric {
 typedef enum CzKnown {
     CZ_KNOWN,
     CZ_DOES_NOT_APPLY,
-    CZ_UNKNOWN /* `value` is the worst of what is known, NaN when nothing is */
+    CZ_UNKNOWN /* `value` is the worst known value, NaN when none is known */
 } CzKnown;
 
 typedef struct CzMetricValue {
     CzKnown known;
     double value;              /* in the metric's unit */
     char where[CZ_WHERE_ROOM]; /* place of the worst value */
-    double when[2];            /* begin and end of the time that it was reached in [s]; NaN when the
-                                  value is a sum or mean, or its time is not kept */
+    double when[2]; /* begin and end of the time at which it was reached [s]; NaN for a sum or mean,
+                       or when the time is not stored */
     char unknown_where[CZ_WHERE_ROOM]; /* first place that does not declare enough; empty when none
                                         */
     const char *why;                   /* when not known; static */
@@ -65,15 +64,15 @@ typedef struct CzMetricValue {
 /* Reads a metric's text. Status: CZ_STATUS_INPUT with the nearest name as help. */
 CZ_MUST_CHECK CzStatus cz_metric_parse(const char *text, CzMetric *metric, CzError *error);
 
-/* Value over all places that the selector picks; `worst_is_max` settles CZ_AGGREGATE_WORST. */
+/* Value over all places that the selector picks; `worst_is_max` defines CZ_AGGREGATE_WORST. */
 CzMetricValue cz_metric_value(const CzMetric *metric, const CzSubject *subject, bool worst_is_max);
 
 /* Its value at one place, in its unit. */
 double cz_metric_at(const CzMetricKind *kind, const CzPlace *place);
-/* When the value was reached at a place [s]: begin and end, NaN when that is not kept. */
+/* Time at which the value was reached at a place [s]: begin and end, NaN when it is not stored. */
 void cz_metric_time_window(const CzMetricKind *kind, const CzPlace *place, double when[2]);
 
-/* Whether the selector picks anything in this scene, as written. */
+/* Whether the selector picks any place in this scene, as written. */
 bool cz_metric_picks(const CzMetric *metric, const CzScene *scene);
 
 /* The metric of a rule between values: a ratio of an end, at most 1. */

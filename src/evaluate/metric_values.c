@@ -5,15 +5,16 @@
 #include <math.h>
 #include <string.h>
 
-/* No share is taken of energies below this [J]. */
+/* Energies below this have no shares [J]. */
 static const double nothing = 100;
 
 static double share_of(double part, double whole) {
     return whole > nothing ? part / whole : NAN;
 }
 
-/* Closing speed at the end of a run; 0 when the end criterion was met: then no neighbours closed
- * for one pitch period, and the remaining speeds are chatter that depends on the time step. */
+/* Closing speed at the end of a run; 0 when the end criterion was met: then no neighbouring cars
+ * approached for one pitch period, and the remaining speeds are chatter that depends on the time
+ * step. */
 static double left_to_close(const CzPlace *place) {
     const CzRunSummary *run = place->run;
     const bool over = run->ended == CZ_ENDED_BY_RULE || run->ended == CZ_ENDED_SETTLED;
@@ -38,7 +39,7 @@ static bool is_judged(const CzPlace *place, int vehicle) {
     return !cz_scene_has_obstacle_at(place->scene, vehicle);
 }
 
-/* Whether a device at an interface bottomed out, without those of an obstacle. */
+/* Whether a device at an interface, except those of an obstacle, bottomed out. */
 static double judged_bottoming(const CzPlace *place) {
     const CzInterfaceResult *interface = place->interface;
     if (is_judged(place, place->interface_index) && is_judged(place, place->interface_index + 1))
@@ -49,7 +50,7 @@ static double judged_bottoming(const CzPlace *place) {
     return 0;
 }
 
-/* Largest section force at an interface, without that of an obstacle. */
+/* Largest section force at an interface, except that of an obstacle. */
 static double judged_section_force(const CzPlace *place) {
     double force = NAN;
     for (int side = 0; side < 2; side++)
@@ -85,15 +86,15 @@ static double energy_behind(const CzPlace *place) {
     return 0;
 }
 
-/* The stroke of a device that has bottomed out hardly depends on the impact. Beyond the last point
- * two quantities therefore represent the missing stroke: the rise of the force F over the largest
- * plastic one P, up to a tenth of the stroke, and behind an anti-climber the energy E that the end
- * structure had to take in its place:
+/* The stroke of a bottomed-out device hardly depends on the impact. Beyond its usable stroke two
+ * quantities therefore represent the missing stroke: the rise of the force F over the largest
+ * plastic one P, up to a tenth of the stroke, and for an anti-climber the energy E that the end
+ * structure behind it had to absorb instead:
  *
  *   demand = used + 0.1 (1 - P / F) + E / (P stroke)
  *
- * It is continuous at the last point. A coupler with a shear-off has no demand until it shears off,
- * because its tubes may be exhausted. */
+ * The demand is continuous at the usable stroke. A coupler with a shear-off has no demand until it
+ * shears off, because its tubes may be exhausted. */
 static double stroke_demand(const CzPlace *place) {
     const CzElementResult *element = place->element;
     if (element->kind == CZ_ELEMENT_COUPLER && place->end->coupler.shear_off.given &&
@@ -127,7 +128,7 @@ static double judged_bogie_lift(const CzPlace *place) {
     return place->vehicle->checks_override ? place->vehicle->bogie_lift : NAN;
 }
 
-/* Plastic energy in the survival space of all vehicles but obstacles [J]. */
+/* Plastic energy in the survival space of all vehicles except obstacles [J]. */
 static double judged_survival(const CzPlace *place) {
     const CzRunSummary *run = place->run;
     double energy = 0.0;
@@ -158,14 +159,14 @@ static double swing_over_stop(const CzPlace *place) {
                 interface->swing[1] / interface->swing_stop[1]);
 }
 
-/* Whether the reader would refuse the design. Lack of memory counts as a broken rule, so that such
+/* Whether the reader would reject the design. Lack of memory counts as a broken rule, so that such
  * a design cannot become the best. */
 static double breaks_rules(const CzPlace *place) {
     return cz_problem_check_vehicles(place->problem, place->vehicles, NULL) != CZ_OK;
 }
 
-/* An override of a run counts in any case; that there was none is known only when every full
- * vehicle declares its stops. */
+/* An override in a run always counts; the absence of one is known only when every full vehicle
+ * declares its stops. */
 static double climbed(const CzPlace *place) {
     if (place->run->beyond_validity)
         return 1;
@@ -179,7 +180,7 @@ static double climbed(const CzPlace *place) {
 
 /* ---- when a value was reached ---- */
 
-/* The first event of a kind that happened there; NaN when there was none. */
+/* Time of the first event of a kind at a place; NaN when there was none. */
 static double event_time(const CzPlace *place, CzEventKind what, const char *where) {
     for (int i = 0; i < place->run->n_event; i++) {
         const CzEvent *event = &place->run->event[i];
@@ -206,14 +207,14 @@ static double wheel_lift_time(const CzVehicleResult *vehicle) {
 
 /* ---- the list ---- */
 
-/* Where the record of a level is found. */
+/* The record of each level. */
 #define CZ_RECORD_AT_RUN place->run
 #define CZ_RECORD_AT_ENERGY (&place->run->energy)
 #define CZ_RECORD_AT_INTERFACE place->interface
 #define CZ_RECORD_AT_ELEMENT place->element
 #define CZ_RECORD_AT_VEHICLE place->vehicle
 
-/* The value that is judged, and when it was reached. */
+/* The value of a metric, and its time. */
 #define AT(time) window[0] = window[1] = (time)
 #define OVER(from) memcpy(window, from, 2 * sizeof *window)
 #define NO_TIME window[0] = window[1] = NAN
@@ -236,7 +237,7 @@ static double wheel_lift_time(const CzVehicleResult *vehicle) {
 
 #define CZ_LEVEL_ENERGY CZ_LEVEL_RUN /* energies are those of the run */
 
-/* Which forms of a result add up over the whole run. */
+/* Forms of a result that are totals over the whole run. */
 enum {
     IS_TOTAL_REAL = false,
     IS_TOTAL_REAL_BY = false,

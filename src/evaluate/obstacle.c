@@ -1,18 +1,18 @@
 /* Trains that are obstacles. They carry no passengers, so limits do not apply to them.
  *
- * `role: obstacle` makes a train one. Without a role a partner is taken for an obstacle when it is
- * one rigid vehicle of at most 20 t (the reference obstacles at level crossings have 3 t and 15 t,
- * EN 15227 from memory; the bound is ours) without coupler, side buffers, anti-climber or survival
- * space, and never the train behind. Where the train behind looks like that too, both are judged;
- * so is the partner of a train that is fixed or an obstacle by its role, since nothing would be
- * judged otherwise.
+ * A train with `role: obstacle` is an obstacle. Without a role a partner counts as an obstacle when
+ * it is one rigid vehicle of at most 20 t (the reference obstacles at level crossings have 3 t and
+ * 15 t, EN 15227 from memory; the bound is ours) without coupler, side buffers, anti-climber or
+ * survival space, and never the train behind. Where the train behind is also such a vehicle, both
+ * are judged; so is the partner of a train that is fixed or an obstacle by its role, since
+ * otherwise no train would be judged.
  */
 #include "base/error.h"
 #include "evaluate/scene.h"
 
 static const double heaviest = 20e3; /* [kg] */
 
-/* Whether an end couples, or has survival space behind it, as that of a train. */
+/* Whether an end has coupling devices or survival space, as that of a train. */
 static bool is_of_train(const CzEnd *end) {
     bool is_train = end->coupler.given || end->side_buffers.given || end->anti_climber.given;
     for (int i = 0; i < end->n_stages; i++)
@@ -34,12 +34,12 @@ static bool is_fixed(const CzTrain *train) {
     return true;
 }
 
-/* Whether the train behind is one whose partner may go unjudged. */
+/* Whether the train behind is clearly a train, so that its partner need not be judged. */
 static bool is_plainly_train(const CzTrain *behind) {
     return behind->role != CZ_ROLE_OBSTACLE && !is_fixed(behind) && !looks_like_obstacle(behind);
 }
 
-/* Whether a train without a role is taken for an obstacle. */
+/* Whether a train without a role counts as an obstacle. */
 static bool is_taken_for_obstacle(const CzInput *input, int train, int n_scene,
                                   const CzScene *scene) {
     if (!looks_like_obstacle(&input->trains[train]))

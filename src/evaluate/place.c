@@ -1,4 +1,4 @@
-/* Places that a metric may be read at, and the selectors that pick them. */
+/* Places at which a metric may be read, and the selectors that pick them. */
 #include "evaluate/place.h"
 
 #include <stdio.h>
@@ -49,7 +49,7 @@ static const char *vehicle_name(const CzVehicle *vehicle) {
     return vehicle->name != NULL ? vehicle->name : "";
 }
 
-/* A walk over places. */
+/* An iteration over places. */
 typedef struct Walk {
     const CzSubject *subject;
     CzLevel level;
@@ -67,7 +67,7 @@ static void call(Walk *walk, const char *name) {
     walk->visit(&walk->place, walk->data);
 }
 
-/* The same at a place of a vehicle, which has the design's values. */
+/* The same at a place of a vehicle, with the design's values. */
 static void call_of(Walk *walk, const CzVehicle *record, const char *name) {
     walk->place.record = record;
     walk->place.must_declare = record->model == CZ_MODEL_FULL;
@@ -83,7 +83,7 @@ static bool has_wildcard(const char *selector) {
     return strpbrk(selector, "*?") != NULL;
 }
 
-/* Whether a vehicle of the scene is passed over: an obstacle is not judged unless it is named. */
+/* Whether a vehicle of the scene is skipped: an obstacle is not judged unless it is named. */
 static bool is_passed_over(const Walk *walk, int vehicle) {
     return has_wildcard(walk->selector) && cz_scene_has_obstacle_at(walk->subject->scene, vehicle);
 }
@@ -203,7 +203,7 @@ void cz_places_visit(const CzSubject *subject, CzLevel level, const char *select
     }
 }
 
-/* How many elements of one end as written a selector picks. */
+/* Number of elements of one end, as written, that a selector picks. */
 static int count_elements(const CzEnd *end, const char *vehicle, const char *interface,
                           const char *selector, bool is_colliding) {
     const bool has[CZ_N_ELEMENT_KIND] = {[CZ_ELEMENT_COUPLER] = end->coupler.given,
@@ -240,7 +240,7 @@ int cz_places_count(const CzScene *scene, CzLevel level, const char *selector) {
             n += count_elements(&behind->front, vehicle_name(behind), name, selector, is_colliding);
             n += count_elements(&ahead->rear, vehicle_name(ahead), name, selector, is_colliding);
         } else if (level == CZ_LEVEL_END) {
-            n += 1; /* any selector of ends is left to the design */
+            n += 1; /* selectors of ends are checked with the design */
         } else {
             n +=
                 picks_interface(selector, name, is_colliding) * (level == CZ_LEVEL_SECTION ? 2 : 1);

@@ -1,9 +1,9 @@
-/* Running designs: many designs through all scenarios on a few threads.
+/* Runs many designs in all scenarios on a few threads.
  *
  *   designs x scenarios --tasks of a few lanes--> runs --compose--> evaluation
  *
  * Runs are stored by design and scenario and composed in that order, so that neither the number of
- * threads nor the neighbours of a design change a bit of its answer.
+ * threads nor the neighbours of a design change a bit of its results.
  */
 #include "base/error.h"
 #include "evaluate/compose.h"
@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Designs whose vehicle records are held at a time. */
+/* Number of designs whose vehicle records are in memory at a time. */
 enum { BLOCK = 64 };
 
 /* Designs of one variant that run side by side in one scenario. */
@@ -38,7 +38,7 @@ typedef struct Block {
     Task *task; /* (n_task) */
 } Block;
 
-/* Runs n designs of one variant, given in the block's order, through one scenario. */
+/* Runs n designs of one variant, given in the block's order, in one scenario. */
 static CzStatus run_designs(const Block *block, const CzModel *model, const Task *task,
                             CzError *error) {
     const CzEvaluator *evaluator = block->evaluator;
@@ -69,7 +69,8 @@ static CzStatus run_task(int index, void *data, CzError *error) {
     return run_designs(block, model, task, error);
 }
 
-/* Cuts designs and scenarios into tasks that fill the lanes; a task has designs of one variant. */
+/* Splits designs and scenarios into tasks that fill the lanes; a task has designs of one
+ * variant. */
 static void cut_tasks(Block *block) {
     const CzEvaluator *evaluator = block->evaluator;
     block->n_task = 0;
@@ -84,7 +85,7 @@ static void cut_tasks(Block *block) {
             const int width = cz_simulate_batch_width(model);
             const int n_chunk = (end - begin + width - 1) / width;
             for (int chunk = 0, first = begin; chunk < n_chunk; chunk++) {
-                const int n = (end - first) / (n_chunk - chunk); /* even chunks */
+                const int n = (end - first) / (n_chunk - chunk); /* chunks of equal size */
                 block->task[block->n_task++] = (Task){s, first, n};
                 first += n;
             }
@@ -95,8 +96,8 @@ static void cut_tasks(Block *block) {
 /* ---- designs that are reread ------------------------------------------------------------------
  */
 
-/* Builds the variant of one design and runs it in all scenarios. A design that breaks a rule is
- * refused, which is a result and no error. */
+/* Builds the variant of one design and runs it in all scenarios. A design that violates a rule is
+ * rejected, which is a result and not an error. */
 static CzStatus run_reread(int index, void *data, CzError *error) {
     Block *block = data;
     const CzEvaluator *evaluator = block->evaluator;
@@ -135,8 +136,8 @@ static CzStatus run_block(Block *block, CzError *error) {
     return status;
 }
 
-/* Judges each design of a finished block; keeps its runs when they are wanted; fills the details,
- * NaN for designs that failed, unless `detail` is NULL. */
+/* Evaluates each design of a finished block; keeps its runs if requested; fills the details, NaN
+ * for designs that failed, unless `detail` is NULL. */
 static CzStatus compose_block(Block *block, CzEvaluation *evaluation, double *detail,
                               CzError *error) {
     const int n_scene = block->evaluator->n_scene;
@@ -185,7 +186,7 @@ static void sort_block(Block *block) {
     }
 }
 
-/* `wish` holds the manner of the runs and what is kept of them. */
+/* `wish` contains the settings of the runs and the results to keep. */
 static CzStatus evaluate_block(const Block *wish, int n_point, const double *x,
                                CzEvaluation *evaluation, double *detail, CzError *error) {
     Block block = *wish;
@@ -222,7 +223,7 @@ static CzStatus evaluate_block(const Block *wish, int n_point, const double *x,
     return status;
 }
 
-/* All designs, block after block. */
+/* Evaluates all designs, block after block. */
 static CzStatus evaluate_all(const Block *wish, int n_point, const double *x,
                              CzEvaluation *evaluation, double *detail, CzError *error) {
     const CzEvaluator *evaluator = wish->evaluator;

@@ -1,4 +1,4 @@
-/* Who collides with whom in a scenario. */
+/* The colliding trains of a scenario. */
 #include "evaluate/scene.h"
 #include "base/error.h"
 #include "base/text.h"

@@ -1,4 +1,4 @@
-/* Trains and speeds of a scenario, as the checks need them. */
+/* Trains and speeds of a scenario for the checks. */
 #ifndef CZ_EVALUATE_SCENE_H
 #define CZ_EVALUATE_SCENE_H
 
@@ -8,19 +8,19 @@
 
 typedef struct CzScene {
     const char *name;                /* of the scenario */
-    const char *family;              /* that it belongs to; NULL for none */
+    const char *family;              /* its family; NULL for none */
     int train[2];                    /* trains of the problem, the one behind first */
     int n_vehicle;                   /* of both trains */
     const CzVehicle *const *vehicle; /* as written, along +x (n_vehicle) */
     const int *record;               /* their places in the problem's vehicle array (n_vehicle) */
     int colliding;                   /* interface between the two trains */
     double closing_speed;            /* at the start [m/s] */
-    const CzTexts *judged_by;        /* names of the only checks that judge it; NULL for all */
+    const CzTexts *judged_by;        /* names of the only checks that apply to it; NULL for all */
     bool is_obstacle[2];             /* whether a train is one, and so not judged */
     bool is_overload;                /* heavier than the others: judged for bottoming only */
 } CzScene;
 
-/* Whether a name means this scenario: its own or that of its family. */
+/* Whether a name denotes this scenario: its own name or that of its family. */
 bool cz_scene_is(const CzScene *scene, const char *name);
 
 /* Whether a vehicle, counted as in `vehicle`, belongs to an obstacle. */
@@ -40,11 +40,11 @@ typedef struct CzObstacles {
 CZ_MUST_CHECK CzStatus cz_obstacles_find(const CzProblem *problem, int n_scene, CzScene *scene,
                                          CzArena *arena, CzObstacles *obstacles, CzError *error);
 
-/* Whether checks of this name judge the scenario. */
+/* Whether checks of this name apply to the scenario. */
 bool cz_scene_is_judged_by(const CzScene *scene, const char *check);
 
-/* Mass factor from which a scenario is an overload case, and the factor on the speed that it must
- * reach to cover the others. */
+/* Mass factor from which a scenario is an overload case, and share of the speed of the others that
+ * it must reach to cover them. */
 #define CZ_OVERLOAD_FACTOR 1.1
 
 /* Fills n_scenario scenes from a problem; memory comes from the arena. Statuses: CZ_OK,

@@ -1,7 +1,7 @@
-/* Sweeps: each point is the problem read again with other values, and run by itself.
+/* Sweeps: for each point the problem is reread with other values and run.
  *
- * Points are tasks of one thread each. They are handed out in waves, between which progress is
- * reported and the stop flag is looked at.
+ * Points are tasks of one thread each. They are started in waves, between which progress is
+ * reported and the stop flag is checked.
  */
 #include "crushzone/sweep.h"
 
@@ -18,9 +18,9 @@
 #include "evaluate/tasks.h"
 #include "text/units.h"
 
-enum { POINTS_PER_JOB = 4 }; /* of a wave */
+enum { POINTS_PER_JOB = 4 }; /* points of a wave per job */
 
-/* What all points share. */
+/* Common data of all points. */
 typedef struct Sweeping {
     const char *file;
     const CzProblemOptions *problem_options;
@@ -28,7 +28,7 @@ typedef struct Sweeping {
     CzMetric metric[CZ_MOST_SWEPT_METRICS];
     CzSweep *sweep;
     int first;           /* point of the wave */
-    CzError first_error; /* of the first point, where its problem is invalid */
+    CzError first_error; /* of the first point whose problem is invalid */
 } Sweeping;
 
 /* ---- one point ------------------------------------------------------------------------------- */
@@ -59,8 +59,8 @@ static CzStatus read_problem(const Sweeping *sweeping, const CzSweepPoint *point
     return status;
 }
 
-/* Values of the metrics over all scenarios. Called with the runs of a point that all came to their
- * end. */
+/* Values of the metrics over all scenarios. Called with the runs of a point when all were
+ * completed. */
 typedef struct Reading {
     const Sweeping *sweeping;
     const CzEvaluator *evaluator;
@@ -96,13 +96,13 @@ static double read_metrics(int n_scenario, const CzRunSummary *const *run, void 
     return 0;
 }
 
-/* Whether a check is to be named in place of another: where one fails the worst of those that do,
- * else the one with the smallest margin. */
+/* Whether a check decides rather than another one: if one fails, the worst of the failed ones, else
+ * the one with the smallest margin. */
 static bool is_nearer(const CzCheckResult *check, const CzCheckResult *other) {
     return !isnan(check->value) && (other == NULL || cz_check_is_worse(check, other));
 }
 
-/* Verdict over the checks that were requested, and which of them decides. */
+/* Verdict over the requested checks, and the check that decides. */
 static CzStatus judge(const CzSweepOptions *options, const CzEvaluation *evaluation,
                       CzSweepPoint *point, CzError *error) {
     const CzCheckResult *deciding = NULL;
@@ -161,7 +161,7 @@ static CzStatus evaluate(const Sweeping *sweeping, CzProblem *problem, CzSweepPo
     return status;
 }
 
-/* An invalid or interrupted point is a result and no failure. */
+/* An invalid or interrupted point is a result and not a failure. */
 static CzStatus run_point(int index, void *data, CzError *error) {
     Sweeping *sweeping = data;
     const int i = sweeping->first + index;
@@ -249,9 +249,9 @@ static CzStatus run_all(Sweeping *sweeping, CzError *error) {
     return CZ_OK;
 }
 
-/* What a point is ordered by when the worst is searched for: run failures first, then points that
- * fail by their margins, those that fail by a yes or no behind them, then the rest by margin; NaN
- * for a point without a margin. */
+/* Sort key of a point in the search for the worst: run failures first, then points that fail by
+ * their margins, then those that fail by a yes or no, then the rest by margin; NaN for a point
+ * without a margin. */
 static double order_of(const CzSweepPoint *point) {
     const double most = 1e9, margin = fmin(fmax(point->margin, -most), most);
     if (point->state == CZ_SWEEP_RUN_FAILED)

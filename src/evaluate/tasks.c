@@ -12,10 +12,10 @@ typedef struct Queue {
     int n_task;
     CzTaskFunction function;
     void *data;
-    pthread_mutex_t lock; /* of what follows */
+    pthread_mutex_t lock; /* protects the following members */
     int failed;           /* first task that failed; n_task when none did */
     CzStatus status;
-    CzError *error; /* NULL when nobody wants it */
+    CzError *error; /* NULL when not requested */
 } Queue;
 
 static void note_failure(Queue *queue, int index, CzStatus status, const CzError *error) {

@@ -8,7 +8,8 @@
 typedef CzStatus (*CzTaskFunction)(int index, void *data, CzError *error);
 
 /* Runs n_task tasks on at most n_job threads, this one among them, and returns when all are done:
- * the status and error of the first one that failed. Fewer threads do where some cannot be started.
+ * the status and error of the first one that failed. It uses fewer threads when some cannot be
+ * started.
  */
 CZ_MUST_CHECK CzStatus cz_tasks_run(int n_task, int n_job, CzTaskFunction function, void *data,
                                     CzError *error);

@@ -1,4 +1,4 @@
-/* Building and freeing a variant of a problem. */
+/* Builds and frees a variant of a problem. */
 #include "evaluate/variant.h"
 #include "base/error.h"
 

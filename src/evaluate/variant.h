@@ -1,9 +1,9 @@
 /* A variant: the problem with other settings, ready to run.
  *
  * Numbers of absorbers are written into copies of the vehicle array, so that many designs of one
- * variant run side by side. Other changes, such as another buffer or a mass that is fitted, are
- * settings of a problem that is reread from the file's tree: the variant is the same, to the last
- * bit, as that of a file with these settings.
+ * variant run side by side. Other changes, such as another buffer or a fitted mass, are settings of
+ * a problem that is reread from the file's tree, so that the variant is the same, to the last bit,
+ * as that of a file with these settings.
  */
 #ifndef CZ_EVALUATE_VARIANT_H
 #define CZ_EVALUATE_VARIANT_H
@@ -25,8 +25,8 @@ typedef struct CzVariantSettings {
 } CzVariantSettings;
 
 /* Builds a variant; `settings` NULL for the problem as written, `only` NULL for every scenario. A
- * variant that failed needs no free. Statuses: CZ_OK, CZ_STATUS_INPUT with the rule that the
- * settings break, CZ_STATUS_NO_MEMORY. */
+ * variant that failed need not be freed. Statuses: CZ_OK, CZ_STATUS_INPUT with the rule that the
+ * settings violate, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_variant_build(const CzProblem *problem, const CzVariantSettings *settings,
                                         int n_scene, const CzScene *scene, const char *only,
                                         CzVariant *variant, CzError *error);

@@ -41,8 +41,8 @@ CzVerdict cz_verdict_over(const CzEvaluation *evaluation, int n_name, const char
     return any[CZ_VERDICT_PROVISIONAL] ? CZ_VERDICT_PROVISIONAL : CZ_VERDICT_PASS;
 }
 
-/* Order: fails by margin, failed yes-or-no checks, checks that were not made, passes by margin,
- * checks that do not apply. */
+/* Sort key: failed checks by margin, failed yes-or-no checks, checks that were not made, passes by
+ * margin, checks that do not apply. */
 static double order_of(const CzCheckResult *check) {
     const double most = 1e9, margin = fmin(fmax(check->margin, -most), most);
     if (check->verdict == CZ_VERDICT_FAIL)

@@ -1,10 +1,10 @@
-/* A design computed again by other means, and the change of the numbers that it is judged by.
+/* Computes a design again by other methods, and the change of the numbers by which it is judged.
  *
- *   production run, the same run in another manner --> change = |again - production| / scale
+ *   production run, the same run by another method --> change = |again - production| / scale
  *
  * The change of a check is that of its margin: a wheel lift of some micrometres counts against its
- * limit. A margin above 100 % counts as 100 %, since no verdict depends on more. Where a limit is
- * exceeded many times, as one of 0 is, the change is relative to the excess.
+ * limit. A margin above 100 % counts as 100 %, since no verdict depends on a larger one. Where a
+ * limit is exceeded many times, as one of 0 is, the change is relative to the excess.
  *
  * The change of any other number is relative to itself. Where the number is next to 0, an energy is
  * compared with a hundredth of the initial kinetic energy, so that at most 1e-4 of that passes,
@@ -22,12 +22,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LIMIT 0.01 /* largest change that passes (ours) */
-#define SETTLED_SHARE                                                                              \
-    0.1 /* of the limit: largest change of a check after its run settled (ours)                    \
-         */
-/* A factor on the step that moves it against every event and changes its error by 6 %; with 33
- * steps for 32 the end criterion is examined at the same times (ours). */
+#define LIMIT 0.01        /* largest change that passes (ours) */
+#define SETTLED_SHARE 0.1 /* largest change of a check by ending early, of the limit (ours) */
+/* Factor on the time step that shifts the steps relative to all events and changes the error by
+ * 6 %; with 33 steps for 32 the end criterion is examined at the same times (ours). */
 #define NUDGE (32.0 / 33.0)
 
 static const struct {
@@ -55,7 +53,7 @@ static CzTrack track_of(const CzEvaluator *evaluator) {
     return cz_problem_track(evaluator->problem);
 }
 
-/* The problem's own track, also in a run that may end early. */
+/* Uses the problem's own track, also in a run that may end early. */
 static CzTrackUse own_track(const CzEvaluator *evaluator) {
     return track_of(evaluator) == CZ_TRACK_MODAL ? CZ_TRACK_USE_MODAL
            : track_of(evaluator) == CZ_TRACK_FE  ? CZ_TRACK_USE_FE
@@ -66,8 +64,8 @@ static CzTrackUse track_of_solvers(const CzEvaluator *evaluator) {
     return track_of(evaluator) == CZ_TRACK_FE ? CZ_TRACK_USE_MODAL : own_track(evaluator);
 }
 
-/* How a method makes its runs. All tracks are compared with the modal one, and that with finite
- * elements, on which the solvers do not run. */
+/* Settings of the runs of a method. All tracks are compared with the modal one, and that with
+ * finite elements, which the solvers do not support. */
 static CzManner manner_of(const CzEvaluator *evaluator, CzVerifyMethod method, double solver_step) {
     CzManner manner = evaluator->manner;
     manner.track = own_track(evaluator);
@@ -99,13 +97,13 @@ static CzManner manner_of(const CzEvaluator *evaluator, CzVerifyMethod method, d
 
 /* ---- numbers of an evaluation ---------------------------------------------------------------- */
 
-/* A number that a design is judged by; their order is the same for every evaluation. */
+/* A number by which a design is judged; their order is the same for every evaluation. */
 typedef struct Number {
     const char *name, *scenario, *where, *unit;
     double value;
-    double counted;             /* a change is the difference of this over `scale` */
+    double counted;             /* the change is the difference of this value over `scale` */
     double scale;               /* infinite: no change counts */
-    const CzCheckResult *check; /* NULL for the objective and the bulk of a scenario */
+    const CzCheckResult *check; /* NULL for the objective and the total results of a scenario */
     bool beyond_validity;
     bool is_total; /* adds up over the whole run */
 } Number;
@@ -125,7 +123,7 @@ static Number number_of_check(const CzCheck *check, const CzCheckResult *result)
 
 enum { N_BULK = 3 };
 
-/* Scale of an energy next to 0, in its unit. */
+/* Scale of an energy near 0, in its unit. */
 static double energy_scale(const CzRunSummary *run, double per_unit) {
     const double share = 0.01; /* ours */
     return share * run->energy.initial / per_unit;
@@ -169,7 +167,7 @@ static Number number_of_match(const CzMatchResult *match, const CzCheckResult *r
                     .check = result};
 }
 
-/* Scale of an objective next to 0 that is a metric. */
+/* Scale of an objective near 0 that is a metric. */
 static double least_scale_of(const CzMetricKind *kind, const CzEvaluation *evaluation) {
     double scale = fabs(kind->scale); /* 1 of a yes or no */
     for (int i = 0; strcmp(kind->unit->text, "kJ") == 0 && i < evaluation->n_run; i++)
@@ -179,8 +177,8 @@ static double least_scale_of(const CzMetricKind *kind, const CzEvaluation *evalu
     return scale;
 }
 
-/* Scale of the objective: 1 of a margin; infinite of a fit's sum of squares, which is next to 0 and
- * whose terms are compared one by one; else its own size. */
+/* Scale of the objective: 1 of a margin; infinite for the sum of squares of a fit, which is near 0
+ * and whose terms are compared one by one; else its own size. */
 static double scale_of_objective(const CzEvaluator *evaluator, const CzEvaluation *evaluation) {
     if (cz_evaluator_maximises_margin(evaluator))
         return 1.0;
@@ -260,7 +258,7 @@ static void compare(CzVerification *verification, CzVerifyMethod method, int ind
     }
 }
 
-/* Writes which scenario of an evaluation failed. */
+/* Writes the name of the scenario of an evaluation that failed. */
 static void write_failure(CzVerification *verification, const char *method,
                           const CzEvaluation *evaluation) {
     verification->status = CZ_STATUS_RUN_FAILED;
@@ -300,8 +298,8 @@ static CzStatus run_method(CzVerification *verification, const CzEvaluator *eval
     return CZ_OK;
 }
 
-/* Runs all methods; `number` has room for the numbers of the record and, `most` behind them, for
- * those of a method. */
+/* Runs all methods; `number` has room for the numbers of the production run and, from `most` on,
+ * for those of a method. */
 static CzStatus run_methods(CzVerification *verification, const CzEvaluator *evaluator,
                             const double *x, const CzEvaluation *record, Number *number, int most,
                             CzError *error) {
@@ -332,8 +330,8 @@ static CzVerdict judge(const CzVerification *verification) {
                                                            : CZ_VERDICT_NOT_CHECKED;
 }
 
-/* Whether the checks of a settled run are those of the whole one: of what adds up over the run,
- * such as the energy in brakes, the verdicts. */
+/* Whether the checks of a run that ended early agree with those of the whole run; for totals, such
+ * as the energy in brakes, only the verdicts. */
 static bool has_same_checks(const CzEvaluator *evaluator, double limit, const CzEvaluation *whole,
                             const CzEvaluation *settled, Number *number) {
     Number *other = number + most_numbers(evaluator, whole);
@@ -348,7 +346,7 @@ static bool has_same_checks(const CzEvaluator *evaluator, double limit, const Cz
     return is_same;
 }
 
-/* Finds the settled runs of the record, where they are asked for and have its checks. */
+/* Finds the early ended runs of the production design, where requested and with the same checks. */
 static CzStatus find_settled(CzVerification *verification, const CzEvaluator *evaluator,
                              const double *x, const CzEvaluation *record, Number *number,
                              CzEvaluation *settled, CzError *error) {
@@ -362,7 +360,7 @@ static CzStatus find_settled(CzVerification *verification, const CzEvaluator *ev
     return CZ_OK;
 }
 
-/* Runs all methods, and before them the settled runs that they are compared with. */
+/* Runs all methods, and before them the early ended runs with which they are compared. */
 static CzStatus run_all(CzVerification *verification, const CzEvaluator *evaluator, const double *x,
                         const CzEvaluation *record, bool until_settled, CzError *error) {
     const int most = most_numbers(evaluator, record);
@@ -382,7 +380,7 @@ static CzStatus run_all(CzVerification *verification, const CzEvaluator *evaluat
     return status;
 }
 
-/* Verifies against a record that has its runs. */
+/* Verifies a production evaluation that has its runs. */
 static CzStatus verify(CzVerification *verification, CzEvaluator *evaluator, const double *x,
                        const CzEvaluation *record, const CzVerifyOptions *options, CzError *error) {
     verification->limit = options->limit;

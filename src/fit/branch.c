@@ -87,7 +87,7 @@ bool cz_branch_cut(CzArena *arena, const CzBranch *branch, double from, double t
     for (int i = 0; i < branch->n; i++)
         if (branch->x[i] > from && branch->x[i] < to)
             cz_branch_add(part, branch->x[i] - from, branch->f[i]);
-    for (int i = branch->n - 1; i >= 0; i--) /* at a jump that ends the part, the force before it */
+    for (int i = branch->n - 1; i >= 0; i--) /* at a jump at the end, the force before it */
         last = branch->x[i] == to ? branch->f[i] : last;
     cz_branch_add(part, to - from, last);
     return cz_branch_end(arena, part);

@@ -1,7 +1,7 @@
 /* One branch of a measured curve: straight lines between points whose stroke never falls.
  *
- * Points of equal stroke are a jump. Integrals over any part are differences of sums that are made
- * once, so the cost of a least-squares fit does not depend on the number of points.
+ * Points of equal stroke are a jump. Integrals over any part are differences of sums that are
+ * computed once, so the cost of a least-squares fit does not depend on the number of points.
  */
 #ifndef CZ_FIT_BRANCH_H
 #define CZ_FIT_BRANCH_H
@@ -28,8 +28,8 @@ static inline void cz_branch_add(CzBranch *branch, double x, double f) {
     branch->f[branch->n++] = f;
 }
 
-/* Ends it; false without memory. Strokes that fall, by noise, are moved as little as possible in
- * the sense of least squares until they do not. */
+/* Completes a branch; false without memory. Strokes that fall, by noise, are moved as little as
+ * possible in the sense of least squares until they do not. */
 bool cz_branch_end(CzArena *arena, CzBranch *branch);
 
 /* The part from `from` to `to` with strokes counted from `from`. */
@@ -38,7 +38,7 @@ bool cz_branch_cut(CzArena *arena, const CzBranch *branch, double from, double t
 /* Integrals from the first point to a stroke. */
 CzBranchSums cz_branch_sums(const CzBranch *branch, double x);
 
-/* Force at a stroke; at a jump the one behind it. */
+/* Force at a stroke; at a jump the one after it. */
 double cz_branch_force(const CzBranch *branch, double x);
 
 static inline double cz_branch_last(const CzBranch *branch) {

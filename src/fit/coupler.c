@@ -1,34 +1,34 @@
 /* Coupler: a buffer, then the plateaus of its tube, then the shear-off when the force drops.
  *
- * The elastic shortening F / k of the tube is taken off first, so that what is left is the sum of
- * the strokes u = x_b + s.
+ * The elastic shortening F / k of the tube is subtracted first, which leaves the sum of the strokes
+ * u = x_b + s.
  *
  *   0 .. u_b     the buffer's lines
  *   u_b .. u_t   the tube's plateaus
  *   u_t .. u_p   the rise along the tube's stop to the force F_s that shears off
  *   u_p .. u_d   its fall, of equal area: softening length = 2 area / F_s
  *
- * u_b is where lines before and plateaus behind leave the least squares.
+ * u_b is the stroke at which lines before and plateaus after it fit with the least squares.
  */
 #include "base/error.h"
 #include "base/number.h"
 #include "fit/fit.h"
 #include "fit/plateaus.h"
 
-#define GONE 0.05             /* of the highest force: a smaller one counts as 0 (ours) */
-#define HIGH_UP 0.5           /* of the highest force: above this the coupler still holds (ours) */
-#define LIKE_RESIDUAL 1.1     /* of the residual force: a drop to this is over (ours) */
+#define GONE 0.05   /* of the highest force: a smaller one counts as 0 (ours) */
+#define HIGH_UP 0.5 /* of the highest force: above this the coupler has not sheared off (ours) */
+#define LIKE_RESIDUAL 1.1     /* of the residual force: a drop ends at this force (ours) */
 #define LARGEST_RESIDUAL 0.35 /* of the shear-off: more is a stage, not friction (ours) */
-#define PEAK_BEFORE 0.05      /* of the stroke: how far before that the peak may lie (ours) */
-#define LONGEST_DROP 0.25     /* of the stroke: a slower fall is no shear-off (ours) */
-#define RISES 1.05            /* of a shear-off over the tube in front of it (ours) */
+#define PEAK_BEFORE 0.05      /* of the stroke: largest distance of the peak before that (ours) */
+#define LONGEST_DROP 0.25     /* of the stroke: a longer fall is not a shear-off (ours) */
+#define RISES 1.05            /* smallest ratio of a shear-off to the tube before it (ours) */
 #define RISE_FOOT 0.2         /* part of that rise at which it begins (ours) */
-#define REVERSIBLE 0.1        /* of the stroke that a buffer alone may keep (ours) */
+#define REVERSIBLE 0.1        /* largest permanent share of the stroke of a buffer alone (ours) */
 #define SHORTEST 0.05         /* of a buffer's stage, as a share of its stroke (ours) */
-#define STIFFER 2.0           /* than the steepest line from zero to a point of the curve (ours) */
-#define LEAST_STROKE 1e-3     /* of the largest: less is too little for a stiffness (ours) */
-#define LEAST_FORCE 0.1       /* of the highest: the same (ours) */
-#define WORTH_A_PRELOAD 0.05  /* of the buffer's force: less is none (ours) */
+#define STIFFER 2.0 /* factor over the steepest line from zero to a point of the curve (ours) */
+#define LEAST_STROKE 1e-3    /* of the largest: less is insufficient for a stiffness (ours) */
+#define LEAST_FORCE 0.1      /* of the highest: likewise (ours) */
+#define WORTH_A_PRELOAD 0.05 /* of the buffer's force: a smaller preload is left out (ours) */
 
 enum { CELLS = 60, BUFFER_STAGES = 3 };
 
@@ -38,9 +38,9 @@ typedef struct Parts {
     double stop_stiffness;         /* of the rise [N/m] */
     CzStop rise;                   /* at the end of a curve without shear-off */
     double force;                  /* F_s [N]; NaN without shear-off */
-    double residual;               /* mean force behind it [N] */
-    double too_much;               /* what a drop leaves that is no shear-off: share of its peak */
-    int end;                       /* last point of the drop, or of the curve */
+    double residual;               /* mean force after it [N] */
+    double too_much; /* residual of a drop that is not a shear-off, as a share of its peak */
+    int end;         /* last point of the drop, or of the curve */
 } Parts;
 
 /* ---- shear-off ---- */
@@ -52,7 +52,7 @@ static int highest_point(const CzBranch *branch, int from, int to) {
     return top;
 }
 
-/* The last point that is high up; behind it the force is low for good. */
+/* The last point with a high force; the force stays low after it. */
 static int find_edge(const CzBranch *branch, double highest) {
     int edge = branch->n - 1;
     while (edge > 0 && branch->f[edge] < HIGH_UP * highest)
@@ -60,16 +60,16 @@ static int find_edge(const CzBranch *branch, double highest) {
     return edge;
 }
 
-/* Residual force after the shear-off: the mean over the second half of the stroke behind the edge;
- * 0 where the last force is small. */
+/* Residual force after the shear-off: the mean over the second half of the stroke after the edge; 0
+ * where the last force is small. */
 static double residual_behind(const CzBranch *branch, int edge, double highest) {
     const double last = cz_branch_last(branch);
     const double kept = cz_branch_mean(branch, 0.5 * (branch->x[edge] + last), last);
     return branch->f[branch->n - 1] < GONE * highest ? 0.0 : kept;
 }
 
-/* Finds where the force drops for good, to 0 or to a residual force; otherwise `parts` ends with
- * the curve. */
+/* Finds the final drop of the force, to 0 or to a residual force; without one `parts` ends with the
+ * curve. */
 static void find_drop(const CzBranch *branch, Parts *parts) {
     const int last = branch->n - 1;
     const double length = cz_branch_last(branch);
@@ -91,7 +91,7 @@ static void find_drop(const CzBranch *branch, Parts *parts) {
         first--;
     const int top = highest_point(branch, first, edge);
     if (branch->x[end] - branch->x[top] > LONGEST_DROP * length || (residual > 0.0 && end == last))
-        return; /* a curve that fades away */
+        return; /* a curve that decreases gradually */
     if (residual > LARGEST_RESIDUAL * branch->f[top]) {
         parts->too_much = residual / branch->f[top];
         return; /* a lower stage */
@@ -105,7 +105,7 @@ static void find_drop(const CzBranch *branch, Parts *parts) {
     parts->residual = residual > 0.0 ? cz_branch_mean(branch, parts->drop, length) : 0.0;
 }
 
-/* Finds the foot of the rise to the shear-off, and the stiffness that gives it its area. */
+/* Finds the foot of the rise to the shear-off, and the stiffness for the same area. */
 static double find_stop(const CzBranch *branch, Parts *parts) {
     const CzKey *key = cz_fit_key(CZ_RECORD_CzTube, "bottom_stiffness");
     const double before = cz_branch_mean(branch, 0.8 * parts->peak, 0.95 * parts->peak);
@@ -149,8 +149,8 @@ static void fit_shear_off(CzFit *fit, const CzBranch *branch, const Parts *parts
 
 /* ---- buffer ---- */
 
-/* Lines of the buffer over its part, with a preload when that is worth it and saves stages or
- * leaves less. */
+/* Fits the lines of the buffer over its part, with a preload when that is large enough and saves
+ * stages or reduces the error. */
 static CzStatus fit_buffer(CzFit *fit, const CzBranch *part, CzError *error) {
     CzStaged preloaded;
     const CzLines lines = {.n_stage = -1, .n_most = BUFFER_STAGES, .shortest = SHORTEST};
@@ -169,12 +169,12 @@ static CzStatus fit_buffer(CzFit *fit, const CzBranch *part, CzError *error) {
     return CZ_OK;
 }
 
-/* Whether the unloading returns to the start of the loading: then nothing is plastic. */
+/* Whether the unloading returns to the start of the loading: then there is no plastic stroke. */
 static bool is_reversible(const CzTrace *trace) {
     return trace->unloads && trace->x[trace->n - 1] < REVERSIBLE * trace->x[trace->n_loading - 1];
 }
 
-/* ---- where the tube begins ---- */
+/* ---- beginning of the tube ---- */
 
 /* The tube's plateaus as they are, their first one lengthened or shortened to begin at a stroke. */
 static bool begin_tube_at(CzStaged *tube, double stop, double from) {
@@ -183,7 +183,7 @@ static bool begin_tube_at(CzStaged *tube, double stop, double from) {
     return tube->stage[0].stroke > 0.0;
 }
 
-/* What one line before and the tube's plateaus behind a stroke leave. */
+/* Squared error of one line before a stroke and the tube's plateaus after it. */
 static CzStatus left_by(CzFit *fit, const CzBranch *branch, const Parts *parts, double from,
                         double *left, CzError *error) {
     CzArena scratch = {0};
@@ -199,7 +199,7 @@ static CzStatus left_by(CzFit *fit, const CzBranch *branch, const Parts *parts, 
     return has_memory ? CZ_OK : cz_no_memory(error, "a fit");
 }
 
-/* Scans around where the tube begins, ever closer. */
+/* Refines the beginning of the tube by scans with decreasing increments. */
 static CzStatus sharpen_tube(CzFit *fit, const CzBranch *branch, Parts *parts, CzError *error) {
     double best = INFINITY, reach = parts->stop / CELLS;
     for (int pass = 0; pass < 5; pass++, reach /= 4.0) {
@@ -216,9 +216,9 @@ static CzStatus sharpen_tube(CzFit *fit, const CzBranch *branch, Parts *parts, C
     return CZ_OK;
 }
 
-/* The tube crushes once the buffer has reached its last force, so higher forces of the buffer are
- * cut. Their energy is added to both members, the trigger included; it would raise a short tube
- * alone far above the curve. */
+/* The buffer cannot exceed the force at which the tube crushes, so higher forces of the buffer are
+ * cut. Their energy is added to both members, the trigger included, because it would raise a short
+ * tube alone far above the curve. */
 static void limit_buffer(CzFit *fit) {
     CzStaged *buffer = &fit->buffer, *tube = &fit->member;
     const double found = cz_staged_energy(buffer);
@@ -232,7 +232,7 @@ static void limit_buffer(CzFit *fit) {
     tube->trigger *= factor;
 }
 
-/* Plateaus of the tube over its part of the curve. */
+/* Fits the plateaus of the tube over its part of the curve. */
 static bool fit_tube(CzFit *fit, const CzBranch *branch, int n_stage, const Parts *parts,
                      CzBranch *behind) {
     return cz_branch_cut(&fit->arena, branch, parts->tube, parts->stop, behind) &&
@@ -258,7 +258,7 @@ static CzStatus fit_members(CzFit *fit, const CzBranch *branch, int n_stage, Par
     return cz_fit_settle(fit, &fit->member, &behind, error);
 }
 
-/* A buffer without a tube: the whole curve up to where it ends or drops. */
+/* Fits a buffer without a tube: the whole curve up to its end or its drop. */
 static CzStatus fit_buffer_alone(CzFit *fit, const CzBranch *branch, Parts *parts, CzError *error) {
     CzBranch part;
     if (!cz_branch_cut(&fit->arena, branch, 0.0, parts->stop, &part))
@@ -272,7 +272,7 @@ static CzStatus fit_buffer_alone(CzFit *fit, const CzBranch *branch, Parts *part
 }
 
 /* Elastic stiffness of the tube: the usual one, unless the curve rises more steeply than that. The
- * ratio of two numbers near zero is no stiffness. */
+ * ratio of two numbers near zero is not used. */
 static double find_stiffness(const CzFit *fit) {
     const CzKey *key = cz_fit_key(CZ_RECORD_CzTube, "stiffness");
     const double least_x = LEAST_STROKE * cz_branch_last(&fit->curve);
@@ -284,7 +284,7 @@ static double find_stiffness(const CzFit *fit) {
     return fmax(key->absent, cz_fit_round(fmin(STIFFER * steepest, key->hi), 1e6));
 }
 
-/* Takes the elasticity off and finds the parts; the tube begins at the end when there is none. */
+/* Subtracts the elasticity and finds the parts; without a tube its beginning is the end. */
 static CzStatus find_parts(CzFit *fit, bool is_alone, int n_stage, CzBranch *branch, Parts *parts,
                            CzError *error) {
     CzBranch whole;

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "text/curve_file.h"
 
-/* A copy that owns its memory; NULL without. */
+/* A copy with its own memory; NULL without memory. */
 static CzCurve *copy_points(const CzCurvePoints *points) {
     CzCurve *made = calloc(1, sizeof *made);
     const size_t size = (size_t)points->n * sizeof *points->x;
@@ -25,7 +25,7 @@ static CzCurve *copy_points(const CzCurvePoints *points) {
     return made;
 }
 
-/* A column of a quantity; one without a dimension has no unit either. */
+/* A column of a quantity; without a dimension it has no unit. */
 static CzCurveColumn column_of(const char *quantity, const char *title) {
     CzDimension dimension = 0;
     while (dimension < CZ_N_DIMENSION && strcmp(cz_dimension_text[dimension], quantity) != 0)
@@ -73,7 +73,7 @@ void cz_curve_free(CzCurve *curve) {
 
 /* ---- titles ---- */
 
-/* The fields of a line as texts behind their pointers, in one block; NULL without memory. */
+/* The fields of a line as pointers followed by their texts, in one block; NULL without memory. */
 static char **fields_of(const char *line, char separator, int n) {
     size_t n_byte = 0;
     for (CzFieldWalk walk = cz_fields_begin(line, separator); cz_fields_next(&walk);)

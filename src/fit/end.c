@@ -5,7 +5,7 @@
  *   x_m - x = c_1 min(F_m - F, (1 - r) F_m) + c_2 max(r F_m - F, 0),   c_i = 1 / Ku_i
  *
  * which is linear in c_1 and c_2. For each share r both follow from the least squares of the
- * shortening over the force, under the condition that the measured part gives back its energy.
+ * shortening over the force, under the condition that the measured part returns its energy.
  */
 #include "base/error.h"
 #include "fit/fit.h"
@@ -35,7 +35,7 @@ static Unloading unload_with(const CzTrace *trace, double peak, double share) {
     if (!(a_2 > 0.0))
         return found;
 
-    /* c_2 = (energy - c_1 a_1) / a_2 leaves one unknown. */
+    /* with c_2 = (energy - c_1 a_1) / a_2 one unknown remains */
     double pp = 0.0, pd = 0.0, dd = 0.0;
     for (int i = top + 1; i < trace->n; i++) {
         const double weight = fmax(trace->f[i - 1] - trace->f[i], 0.0);
@@ -81,7 +81,7 @@ static double within(const CzKey *key, double stiffness) {
     return cz_fit_round(fmin(fmax(stiffness, key->lo), key->hi), 1e6);
 }
 
-/* Steepest rise of the lines, of the first or of all others. */
+/* Steepest rise of the first line, or of all others. */
 static double steepest(const CzStaged *staged, bool of_first) {
     double rise = 0.0, force = 0.0;
     for (int i = 0; i < staged->n_stage; i++) {
@@ -92,7 +92,8 @@ static double steepest(const CzStaged *staged, bool of_first) {
     return rise;
 }
 
-/* Factor on the unloading stiffness without which it would return more than a stage absorbed. */
+/* Factor on the unloading stiffness that is required so that a stage does not return more energy
+ * than it absorbed. */
 static double missing_stiffness(const CzFit *fit) {
     const CzVehicleEndLaw law = {.unloading = fit->unloading,
                                  .share = fit->share,
@@ -102,9 +103,10 @@ static double missing_stiffness(const CzFit *fit) {
     return fmax(later / cz_vehicle_end_steepest(&law), all / fit->unloading);
 }
 
-/* Makes the unloading stiff enough: both stages alike, or as one where a range ends. */
+/* Raises the unloading stiffness as required: both stages by the same factor, or to one stage where
+ * a range ends. */
 static void stiffen(CzFit *fit, const CzKey *key) {
-    const double more = 1.0 + 1e-4; /* for rounding */
+    const double more = 1.0 + 1e-4; /* margin for rounding */
     const double factor = missing_stiffness(fit);
     if (factor <= 1.0)
         return;
@@ -128,7 +130,7 @@ static double mean_unloading(const CzTrace *trace, double peak) {
 }
 
 /* Whether one line of that stiffness describes the measured unloading. A second stage would then
- * follow the noise of the peak, with a stiffness that needs tiny time steps. */
+ * fit the noise of the peak, with a stiffness that requires very small time steps. */
 static bool one_line_will_do(const CzTrace *trace, double peak, double stiffness) {
     const int top = trace->n_loading - 1;
     double squares = 0.0, weights = 0.0;

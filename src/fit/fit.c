@@ -1,4 +1,5 @@
-/* From a curve to the values of a law: reading, fitting by kind, rounding, values of the file. */
+/* Determines the values of a law from a curve: reading, fitting by kind, rounding, values of the
+ * file. */
 #include "fit/fit.h"
 
 #include <stdio.h>
@@ -13,8 +14,8 @@ CzFitOptions cz_fit_options_default(void) {
         .kind = CZ_FIT_ANTI_CLIMBER, .n_stage = -1, .scale = 1.0, .from = NAN, .to = NAN};
 }
 
-/* The loading from stroke 0 on: of a curve that begins a little later, with its first force when it
- * begins with force, else with none. */
+/* Builds the loading from stroke 0 on. A curve that begins a little later is extended to 0 with its
+ * first force when it begins with force, else with zero. */
 static CzStatus make_curve(CzFit *fit, CzError *error) {
     const CzTrace *trace = &fit->trace;
     const int top = trace->n_loading - 1;
@@ -42,8 +43,8 @@ static CzStatus make_curve(CzFit *fit, CzError *error) {
 
 /* ---- values ---- */
 
-/* Adds a value of a record [SI], in the unit that its key is typed with; `prefix` is the path
- * before the key, such as "tube.". */
+/* Adds a value of a record [SI], in the unit of its typed key; `prefix` is the path before the key,
+ * such as "tube.". */
 static void put(CzFit *fit, CzRecordId record, const char *prefix, const char *typed, double si) {
     const CzUnit *unit = NULL;
     const CzKey *key = cz_record_match(&cz_records[record], typed, &unit);
@@ -53,10 +54,10 @@ static void put(CzFit *fit, CzRecordId record, const char *prefix, const char *t
     snprintf(next->path, sizeof next->path, "%s%s", prefix, typed);
     next->value = si * (1.0 / unit->si);
     const double rounded =
-        cz_fit_round(next->value, 1.0); /* the change of units alters last bits */
+        cz_fit_round(next->value, 1.0); /* the conversion of units changes the last bits */
     if (fabs(rounded - next->value) <= CZ_FIT_ROUNDING * fabs(next->value))
         next->value = rounded;
-    const bool is_idle = strcmp(key->stem, "force") == 0 && si <= 0.0; /* absorbs nothing */
+    const bool is_idle = strcmp(key->stem, "force") == 0 && si <= 0.0; /* absorbs no energy */
     if (fit->beyond == NULL &&
         (is_idle || si < key->lo * (1 - 1e-12) || si > key->hi * (1 + 1e-12)))
         fit->beyond = next;
@@ -71,7 +72,7 @@ static void put_stages(CzFit *fit, const char *prefix, const CzStaged *staged) {
     }
 }
 
-/* A stiffness that differs from the problem file's default. */
+/* Adds a stiffness that differs from the problem file's default. */
 static void put_unusual(CzFit *fit, CzRecordId record, const char *prefix, const char *typed,
                         double stiffness) {
     const CzUnit *unit = NULL;
@@ -234,7 +235,7 @@ static CzStatus make(const char *path, int n_point, const double *stroke, const 
                           : cz_fit_take_points(begun, n_point, stroke, force, options, error);
     if (status == CZ_OK)
         status = fit_law(begun, options->n_stage, error);
-    if (status == CZ_OK && begun->arena.out_of_memory) /* a sentence is missing */
+    if (status == CZ_OK && begun->arena.out_of_memory) /* a sentence may be missing */
         status = cz_no_memory(error, "a fit");
     if (status == CZ_OK)
         *fit = begun;

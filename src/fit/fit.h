@@ -1,4 +1,4 @@
-/* One fit from a trace to the values of a law: what the files of this folder share. */
+/* One fit from a trace to the values of a law: common data of the files of this folder. */
 #ifndef CZ_FIT_FIT_H
 #define CZ_FIT_FIT_H
 
@@ -19,11 +19,11 @@ struct CzFit {
     CzArena arena;
     CzFitSummary summary;
     CzTrace trace;
-    CzBranch curve; /* the loading over the whole shortening; one point before it when the first
-                       lies beyond 0 */
+    CzBranch curve; /* the loading over the whole shortening; with one more point when the first is
+                       beyond 0 */
     double *path_x, *path_f; /* the same with the noise in its strokes */
 
-    /* The law. Members that a kind lacks are absent: no stages, NaN. */
+    /* The law. Members that a kind does not have are absent: no stages, NaN. */
     CzStaged buffer;         /* lines */
     CzStaged member;         /* plateaus of tube or anti-climber, lines of an end */
     double stiffness;        /* elastic, in series with the members [N/m]; INFINITY: the strokes are
@@ -40,7 +40,7 @@ struct CzFit {
     CzLoading whole; /* over the stroke of the curve */
 
     CzFitValue value[CZ_FIT_MOST_VALUES]; /* (summary.n_value) */
-    const CzFitValue *beyond; /* the first one outside the range of its key; NULL without */
+    const CzFitValue *beyond; /* the first one outside the range of its key; NULL if none */
 };
 
 /* From a file, or from points, to a trace (read.c). */
@@ -62,7 +62,7 @@ CZ_MUST_CHECK CzStatus cz_fit_coupler(CzFit *fit, int n_stage, CzError *error);
 /* Fails because no law of the kind fits the curve. */
 CzStatus cz_fit_no_law(const CzFit *fit, CzError *error, const char *why);
 
-/* The loading less the elastic shortening of a stiffness. */
+/* The loading over the stroke without the elastic shortening of a stiffness. */
 CZ_MUST_CHECK CzStatus cz_fit_branch(CzFit *fit, double stiffness, CzBranch *branch,
                                      CzError *error);
 
@@ -80,7 +80,7 @@ void cz_fit_round_staged(CzStaged *staged);
 /* Multiplies the force of a stage, or where `stage` is -1 all forces and the preload. */
 void cz_fit_scale_forces(CzStaged *staged, int stage, double factor);
 
-/* Raises forces that are below the one before: a buffer's force does not fall. */
+/* Raises forces that are below the previous one, because a buffer's force does not fall. */
 void cz_fit_let_rise(CzStaged *staged);
 
 /* Rounds a member of the law over its part of the branch, strokes first, and sets the force of its
@@ -89,25 +89,25 @@ void cz_fit_let_rise(CzStaged *staged);
 CZ_MUST_CHECK CzStatus cz_fit_settle(CzFit *fit, CzStaged *staged, const CzBranch *branch,
                                      CzError *error);
 
-/* Adds a sentence to the summary: what a user should know, or why the law is doubtful. */
+/* Adds a sentence to the summary: a remark for the user, or a reason why the law is doubtful. */
 void cz_fit_note_down(CzFit *fit, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void cz_fit_doubt_that(CzFit *fit, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Key of the problem file: its default and its range [SI]. */
 const CzKey *cz_fit_key(CzRecordId record, const char *stem);
 
-/* ---- where a curve ends in a stop (stop.c) ---- */
+/* ---- stop at the end of a curve (stop.c) ---- */
 
-/* Densification: the force rises for good, steeply, above all that was before. */
+/* Densification: a final, steep rise of the force above all earlier forces. */
 typedef struct CzStop {
     bool is_there;
-    int onset;        /* last point of the loading before it; else the last one of all */
+    int onset;        /* last point of the loading before the rise; without a rise the last point */
     double stiffness; /* of the rise as a whole, elasticity included [N/m] */
 } CzStop;
 
 CzStop cz_fit_find_stop(const CzFit *fit);
 
-/* The stiffness in series with the members, raised where the stop is as stiff. */
+/* The stiffness in series with the members, raised where the stop would be stiffer. */
 double cz_fit_stiffness_for(CzFit *fit, const CzStop *stop, double stiffness);
 
 /* Ends a member where its stop begins, so that the rise along the stop has the area and the last
@@ -121,8 +121,8 @@ CZ_MUST_CHECK CzStatus cz_fit_place_stop(CzFit *fit, const CzStop *stop, CzStage
 void cz_fit_load(const CzFit *fit, CzLoading *loading);
 double cz_fit_law_energy(const CzFit *fit);
 
-/* The same over the whole stroke of the curve: beyond its own the law rises along its stop, or has
- * the residual force of a shear-off. */
+/* The same over the whole stroke of the curve: beyond its own stroke the law rises along its stop,
+ * or has the residual force of a shear-off. */
 void cz_fit_load_whole(const CzFit *fit, CzLoading *loading);
 
 /* Fills the differences of the summary. */

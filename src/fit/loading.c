@@ -1,4 +1,4 @@
-/* The law under a shortening that grows slowly, and how far it is from the curve.
+/* The law under a slowly growing shortening, and its difference from the curve.
  *
  *   d = x_b(F) + s + F / k
  *
@@ -9,10 +9,11 @@
  */
 #include "fit/fit.h"
 
-/* A law that ends earlier by this share of the stroke ends with the curve (ours). */
+/* A law that ends earlier than the curve by at most this share of the stroke counts as ending with
+ * it (ours). */
 static const double rounded = 1e-3;
 
-enum { SAMPLES = 4000, STRETCH = SAMPLES / 10 }; /* of the mean square, and of a stretch of it */
+enum { SAMPLES = 4000, STRETCH = SAMPLES / 10 }; /* for the mean square, and for a stretch of it */
 
 static void add(CzLoading *loading, double x, double f) {
     const double before = loading->n > 0 ? loading->x[loading->n - 1] : 0.0;
@@ -22,7 +23,7 @@ static void add(CzLoading *loading, double x, double f) {
     loading->f[loading->n++] = f;
 }
 
-/* Appends a staged curve whose stroke begins at `from`; returns where it ends. */
+/* Appends a staged curve whose stroke begins at `from`; returns its end. */
 static double add_staged(CzLoading *loading, const CzStaged *staged, double from,
                          double compliance) {
     double at[CZ_MOST_BENDS];
@@ -42,7 +43,7 @@ static double last_force(const CzLoading *loading) {
     return loading->n > 0 ? loading->f[loading->n - 1] : 0.0;
 }
 
-/* Along a stop up to a force; returns the members' stroke there. */
+/* Appends a stop up to a force; returns the members' stroke there. */
 static double add_stop(CzLoading *loading, double at, double force, double stiffness,
                        double compliance) {
     if (force > last_force(loading)) {
@@ -108,7 +109,7 @@ double cz_fit_law_energy(const CzFit *fit) {
     return cz_work(loading.x, loading.f, 0, loading.n - 1);
 }
 
-/* Least and largest force of the law at a shortening: they differ at a jump. */
+/* Smallest and largest force of the law at a shortening, which differ at a jump. */
 static void force_at(const CzLoading *loading, double x, double *low, double *high) {
     int i = 0;
     while (i + 1 < loading->n && loading->x[i + 1] < x)
@@ -131,7 +132,7 @@ static double difference_at(const CzLoading *loading, double x, double force) {
     return force < low ? low - force : force > high ? high - force : 0.0;
 }
 
-static void take_larger(CzFit *fit, const CzLoading *loading, double x, double force) {
+static void keep_larger(CzFit *fit, const CzLoading *loading, double x, double force) {
     const double difference = fabs(difference_at(loading, x, force));
     const double none = 1e-9 * fit->summary.peak_force; /* rounding */
     if (difference > fmax(fit->summary.largest_difference, none)) {
@@ -164,12 +165,12 @@ void cz_fit_compare(CzFit *fit) {
     const double end = fmin(loading.x[loading.n - 1], cz_branch_last(&fit->curve));
     summary->largest_difference = summary->at_stroke = summary->law_peak = 0.0;
     for (int i = 0; i < fit->curve.n && fit->curve.x[i] <= end; i++)
-        take_larger(fit, &loading, fit->curve.x[i], fit->curve.f[i]);
+        keep_larger(fit, &loading, fit->curve.x[i], fit->curve.f[i]);
     for (int i = 0; i < loading.n && loading.x[i] <= end; i++) {
         const bool is_jump = (i > 0 && loading.x[i] == loading.x[i - 1]) ||
                              (i + 1 < loading.n && loading.x[i] == loading.x[i + 1]);
         if (!is_jump)
-            take_larger(fit, &loading, loading.x[i], cz_branch_force(&fit->curve, loading.x[i]));
+            keep_larger(fit, &loading, loading.x[i], cz_branch_force(&fit->curve, loading.x[i]));
     }
     for (int i = 0; i < loading.n && loading.x[i] <= end * (1.0 + rounded); i++)
         summary->law_peak = fmax(summary->law_peak, loading.f[i]);

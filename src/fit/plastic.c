@@ -1,22 +1,22 @@
-/* Anti-climber or collapse tube: plateaus behind an elastic shortening.
+/* Anti-climber or collapse tube: plateaus after an elastic shortening.
  *
  *   d = s + F / k
  *
  * A curve that begins without force shows the elastic rise: k is taken from its unloading, by the
- * energy that this gives back, else from the rise; the plateaus are fitted over s = d - F / k. A
- * curve that begins with force has no rise, and its strokes are plastic.
+ * energy that this returns, else from the rise; the plateaus are fitted over s = d - F / k. A curve
+ * that begins with force has no rise, and its strokes are plastic.
  */
 #include "base/error.h"
 #include "fit/fit.h"
 #include "fit/plateaus.h"
 
-#define STEEPER 5.0     /* than the curve as a whole: less is no elasticity (ours) */
+#define STEEPER 5.0     /* than the whole curve: a flatter rise is not elastic (ours) */
 #define FIRST_FROM 0.03 /* part of the stroke whose mean is the first force (ours) */
 #define FIRST_TO 0.13
-#define WITHOUT_FORCE 0.2 /* of the mean force: less than this is no force (ours) */
+#define WITHOUT_FORCE 0.2 /* of the mean force: a smaller force counts as zero (ours) */
 #define RISE_LOW 0.2      /* part of the rise that gives the stiffness, of the mean force (ours) */
 #define RISE_HIGH 0.8
-#define NO_RISE 2e-4 /* of the stroke: a rise over less is a jump, and no stiffness (ours) */
+#define NO_RISE 2e-4 /* of the stroke: a rise over less is a jump without a stiffness (ours) */
 
 /* Stroke at which the loading first reaches a force. */
 static double stroke_of(const CzBranch *curve, double force) {

@@ -1,10 +1,11 @@
-/* Where stages begin and end: dynamic programming for plateaus, trial of all sets of a few likely
- * strokes for lines, both refined afterwards.
+/* Finds the ends of stages: by dynamic programming for plateaus, by trial of all sets of a few
+ * likely strokes for lines; both are refined afterwards.
  *
- * A plateau costs what its mean leaves of the squares, a sum over stages: the best n of them over a
- * grid follow from the best n - 1 up to every stroke (Bellman 1961, "On the approximation of curves
- * by line segments using dynamic programming", CACM 4(6), 10.1145/366573.366611). Lines that meet
- * at their ends depend on their neighbours, so their sets are tried out.
+ * The cost of a plateau is the squared difference from its mean, and the total is a sum over
+ * stages, so the best n plateaus over a grid follow from the best n - 1 up to every stroke (Bellman
+ * 1961, "On the approximation of curves by line segments using dynamic programming", CACM 4(6),
+ * 10.1145/366573.366611). Lines that meet at their ends depend on their neighbours, so all their
+ * sets are tried.
  */
 #include "fit/plateaus.h"
 
@@ -13,21 +14,22 @@
 #include "problem/reduce_curve.h"
 
 enum {
-    CELLS = 240,     /* of the grid that plateaus are searched for on */
-    SAMPLES = 600,   /* of a curve whose likely strokes are searched for */
-    LIKELY = 40,     /* strokes that lines are tried between */
-    MOST_OF_OWN = 4, /* stages that are taken without being requested */
+    CELLS = 240,     /* of the grid for the search of plateaus */
+    SAMPLES = 600,   /* of a curve for the search of likely strokes */
+    LIKELY = 40,     /* strokes that are tried as ends of lines */
+    MOST_OF_OWN = 4, /* most stages unless more are requested */
     MOST_LINES = 4
 };
 
 #define SHORTEST 0.005  /* of a stage, as a share of the stroke (ours) */
-#define PAYS 0.75       /* a further stage leaves less than this of the squares (ours) */
+#define PAYS 0.75       /* a further stage must reduce the squares below this share (ours) */
 #define PEAK_WITHIN 0.2 /* part of the stroke in which a trigger peak lies (ours) */
-#define PEAK_HEIGHT 1.1 /* of a trigger over what follows (ours) */
-#define DOWN 1.02       /* of what follows: a peak that has come down to this is over (ours) */
-#define AHEAD 0.1       /* part of the stroke that is taken for what follows (ours) */
+#define PEAK_HEIGHT 1.1 /* of a trigger over the following force (ours) */
+#define DOWN 1.02       /* of the following force: a peak ends at this force (ours) */
+#define AHEAD 0.1       /* part of the stroke whose mean is the following force (ours) */
 
-/* Number of stages beyond which further ones do not pay, from the integrals left by 1 to n. */
+/* Number of stages beyond which further ones reduce the error too little, from the integrals for 1
+ * to n stages. */
 static int stages_that_pay(const double *squares, int n, double nothing) {
     for (int few = 1; few < n; few++) {
         bool pays = false;
@@ -79,7 +81,7 @@ static void fill_table(Table *table, const CzBranch *branch, double from, int n_
 }
 
 /* Strokes of the best n stages; the first begins at 0. */
-static void take_breaks(const Table *table, int n_stage, double shortest, CzStaged *staged) {
+static void store_breaks(const Table *table, int n_stage, double shortest, CzStaged *staged) {
     double end[CZ_MAX_STAGES];
     int at = CELLS;
     for (int i = n_stage - 1; i >= 0; i--) {
@@ -93,12 +95,12 @@ static void take_breaks(const Table *table, int n_stage, double shortest, CzStag
     }
 }
 
-/* A peak at the beginning that stands out over what follows. */
+/* A peak at the beginning that exceeds the following force. */
 typedef struct Peak {
     bool is_there;
-    double force, level; /* of the peak, of what follows [N] */
-    double end;          /* stroke at which the force has come down to it [m] */
-    double area;         /* between the peak and what follows [J] */
+    double force, level; /* of the peak, and after it [N] */
+    double end;          /* stroke at which the force has fallen to `level` [m] */
+    double area;         /* between the peak and `level` [J] */
 } Peak;
 
 static Peak find_peak(const CzBranch *branch) {
@@ -122,13 +124,13 @@ static Peak find_peak(const CzBranch *branch) {
     return peak;
 }
 
-/* The best n plateaus behind a trigger peak. */
+/* The best n plateaus after a trigger peak. */
 static double best_of(const Table *table, const CzBranch *branch, int n_stage, const Peak *peak,
                       double stiffness, CzStaged *staged) {
     const double last = cz_branch_last(branch);
     const double shortest = fmax(SHORTEST * last, 1.1 * CZ_SHORTEST_STAGE);
     const double energy = branch->area[branch->n - 1];
-    take_breaks(table, n_stage, shortest, staged);
+    store_breaks(table, n_stage, shortest, staged);
     if (!peak->is_there)
         return cz_staged_refine(staged, branch, energy, shortest);
     const double steep = (peak->force - peak->level) / stiffness; /* softer than the elasticity */
@@ -160,7 +162,7 @@ bool cz_fit_plateaus(CzArena *arena, const CzBranch *branch, int n_stage, double
     return true;
 }
 
-/* ---- a line in front of plateaus ---- */
+/* ---- a line before plateaus ---- */
 
 /* The curve read from its end. */
 static bool mirror(CzArena *arena, const CzBranch *branch, CzBranch *mirrored) {
@@ -182,7 +184,7 @@ double cz_fit_left_by_line(const CzBranch *branch, double to) {
     return is_preloaded ? fmin(through_zero, free) : through_zero;
 }
 
-/* The best place for the line to end in front of n plateaus; returns what is left. */
+/* The best end of the line before n plateaus; returns the squared error. */
 static double split_before(const Table *table, const CzBranch *branch, int n, double *at) {
     double least = INFINITY;
     for (int i = 1; i < CELLS; i++) {
@@ -212,8 +214,8 @@ bool cz_fit_split(CzArena *arena, const CzBranch *branch, int n_stage, double *a
 
 /* ---- lines ---- */
 
-/* Strokes that a line may end at, rising: half of them evenly spread, half the curve's own corners;
- * returns how many, -1 without memory. */
+/* Strokes at which a line may end, rising: half of them evenly spread, half the curve's own
+ * corners; returns how many, -1 without memory. */
 static int likely_strokes(CzArena *arena, const CzBranch *branch, double shortest,
                           double stroke[LIKELY]) {
     const double last = cz_branch_last(branch);
@@ -265,7 +267,7 @@ static void try_set(Trial *trial, const int *set, CzStaged *staged) {
     }
 }
 
-/* Counts the sets on like the digits of a number. */
+/* Tries the sets one after the other, in the order of the digits of a number. */
 static void try_all(Trial *trial, CzStaged staged) {
     int set[MOST_LINES] = {0};
     const int n = staged.n_stage - 1;
@@ -300,7 +302,7 @@ bool cz_fit_lines(CzArena *arena, const CzBranch *branch, const CzLines *lines, 
     const int n_stroke = likely_strokes(arena, branch, shortest, stroke);
     if (n_stroke < 0)
         return false;
-    const int room = n_stroke + 1; /* stages that the strokes can part */
+    const int room = n_stroke + 1; /* largest number of stages between the strokes */
     const int asked = lines->n_stage > 0 ? lines->n_stage : lines->n_most;
     const int last = asked < room ? asked : room, n_stage = lines->n_stage > 0 ? last : -1;
     for (int n = n_stage > 0 ? n_stage : 1; n <= last; n++) {

@@ -1,7 +1,7 @@
-/* Whether a law is like its curve, over the whole loading of the curve.
+/* Judges how well a law describes its curve over the whole loading.
  *
- * Equal energy alone says little: a plateau through a curve that ruptures has it too. The levels
- * are ours; a doubtful law is written with the reason, a refused one is not written.
+ * Equal energy alone is not sufficient: a plateau through a curve with a rupture has it as well.
+ * The levels are ours; a doubtful law is written with the reason, a refused one is not written.
  */
 #include "fit/fit.h"
 
@@ -10,7 +10,7 @@
 
 #include "base/number.h"
 
-/* Share that is measured, and its levels. */
+/* Levels of a relative error. */
 typedef struct Level {
     double doubtful, refused;
 } Level;
@@ -30,7 +30,7 @@ __attribute__((format(printf, 4, 5))) static void
 judge(CzFit *fit, double share, const Level *level, const char *format, ...) {
     char text[160];
     va_list arguments;
-    const bool is_refused = !(share <= level->refused); /* NaN is refused */
+    const bool is_refused = !(share <= level->refused); /* NaN is rejected */
     if (share <= level->doubtful)
         return;
     va_start(arguments, format);

@@ -21,7 +21,7 @@ static CzTraceShape shape_of(const CzFitOptions *options) {
     return shape;
 }
 
-/* Makes a trace of points that were read. */
+/* Converts the points that were read to a trace. */
 static CzStatus make_trace(CzFit *fit, const CzSource *source, const CzFitOptions *options,
                            double unit, CzError *error) {
     const CzTraceShape shape = shape_of(options);

@@ -1,4 +1,5 @@
-/* What every kind of law needs: words, keys, sentences, elastic shortening, rounding, equal energy.
+/* Functions for all kinds of laws: words, keys, sentences, elastic shortening, rounding, equal
+ * energy.
  */
 #include "fit/fit.h"
 
@@ -143,7 +144,7 @@ CzStatus cz_fit_no_law(const CzFit *fit, CzError *error, const char *why) {
 CzStatus cz_fit_settle(CzFit *fit, CzStaged *staged, const CzBranch *branch, CzError *error) {
     const bool must_rise = staged == &fit->buffer;
     round_strokes(staged);
-    for (int i = 0; i < 3; i++) { /* the elastic part depends on the last force a little */
+    for (int i = 0; i < 3; i++) { /* the elastic part depends slightly on the last force */
         CzStaged found = *staged;
         const double others = cz_fit_law_energy(fit) - cz_staged_energy(staged);
         if (cz_staged_solve(&found, branch, fit->summary.energy - others) < INFINITY)
@@ -153,7 +154,7 @@ CzStatus cz_fit_settle(CzFit *fit, CzStaged *staged, const CzBranch *branch, CzE
         cz_fit_let_rise(staged);
     round_forces(staged);
     const double factor = settle_energy(fit, staged, must_rise ? -1 : longest_of(staged));
-    if (staged->trigger < staged->stage[0].force) { /* it is no longer a peak */
+    if (staged->trigger < staged->stage[0].force) { /* it is not a peak any more */
         staged->trigger = NAN;
         return cz_fit_settle(fit, staged, branch, error);
     }

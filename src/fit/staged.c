@@ -11,7 +11,7 @@ enum {
 
 #define GOLDEN 0.6180339887498949
 #define ROUNDING 1e-12   /* of a difference of integrals of squares, as a share of them */
-#define LEAST_FORCE 1e-3 /* of the mean force: no stage may have less (ours) */
+#define LEAST_FORCE 1e-3 /* of the mean force: smallest force of a stage (ours) */
 
 CzStaged cz_staged_begin(bool is_strength) {
     return (CzStaged){.is_strength = is_strength, .trigger = NAN, .trigger_length = 0.01};
@@ -172,9 +172,9 @@ static bool eliminate(Equations *equations) {
     return true;
 }
 
-/* Puts the solution into the stages and returns the integral that it leaves. */
-static double take_forces(CzStaged *staged, const Terms *terms, const CzBranchSums *sums,
-                          const double *force) {
+/* Stores the solution in the stages and returns the integral of the squared difference. */
+static double store_forces(CzStaged *staged, const Terms *terms, const CzBranchSums *sums,
+                           const double *force) {
     double value[CZ_MOST_BENDS];
     for (int k = 0; k < terms->n_bend; k++)
         value[k] = terms->fixed[k];
@@ -191,7 +191,7 @@ static double take_forces(CzStaged *staged, const Terms *terms, const CzBranchSu
                 0.0);
 }
 
-/* Least squares of forces that may not fall below one:
+/* Least squares of forces with a lower bound:
  *
  *   minimise c'A c / 2 - b'c   under   p'c = e,   c_i >= least
  *
@@ -205,7 +205,7 @@ typedef struct Problem {
     double force[MOST_TERMS], multiplier; /* the solution, and l */
 } Problem;
 
-/* Solves for the forces that are not held; false when there is no single solution. */
+/* Solves for the forces that are not held at the bound; false when there is no single solution. */
 static bool solve_free(Problem *problem) {
     int index[MOST_TERMS], n = 0;
     Equations equations;
@@ -237,8 +237,8 @@ static bool solve_free(Problem *problem) {
     return true;
 }
 
-/* Holds the forces that are too low; false when none is. */
-static bool hold_low_ones(Problem *problem) {
+/* Holds the forces below the bound at it; false when there is none. */
+static bool hold_low_forces(Problem *problem) {
     bool is_low = false;
     for (int i = 0; i < problem->n; i++)
         if (!problem->is_held[i] && !(problem->force[i] >= problem->least))
@@ -270,10 +270,10 @@ static bool solve_bounded(Problem *problem) {
     for (int i = 0; i < 4 * problem->n + 4; i++) {
         if (!solve_free(problem))
             return false;
-        if (!hold_low_ones(problem) && !release_one(problem))
+        if (!hold_low_forces(problem) && !release_one(problem))
             return true;
     }
-    return false; /* forces that are held and released in turn, by rounding */
+    return false; /* forces that are held and released in turn because of rounding */
 }
 
 double cz_staged_solve(CzStaged *staged, const CzBranch *branch, double energy) {
@@ -298,12 +298,12 @@ double cz_staged_solve(CzStaged *staged, const CzBranch *branch, double energy) 
     problem.energy = energy - product(&terms, terms.fixed, one);
     if (!solve_bounded(&problem))
         return INFINITY;
-    return take_forces(staged, &terms, sums, problem.force);
+    return store_forces(staged, &terms, sums, problem.force);
 }
 
 /* ---- strokes ---- */
 
-/* What a search moves: the length of the trigger, then the ends of all stages but the last. */
+/* Variables of a search: the length of the trigger, then the ends of all stages except the last. */
 typedef struct Breaks {
     int n;
     double at[CZ_MAX_STAGES + 2]; /* at[0] is 0, at[n + 1] the stroke (n + 2) */
@@ -349,7 +349,7 @@ static double try_break(Search *search, int k, double at) {
     return cz_staged_solve(&staged, search->branch, search->energy);
 }
 
-/* Golden sections within `reach` of where a break is; it moves when that is better. */
+/* Golden section search within `reach` of a break, which moves when that is better. */
 static void move_break(Search *search, int k, double reach) {
     const double now = search->breaks.at[k];
     double low = fmax(now - reach, search->breaks.at[k - 1] + search->shortest);

@@ -2,8 +2,9 @@
  *
  *   g(x) = fixed(x) + sum over i of c_i phi_i(x)
  *
- * is what the model makes of stages (model/breakpoints.h): phi_i is the curve whose i-th force is 1
- * N and whose other forces are 0. Given the strokes of the stages, the forces c that minimise
+ * is the curve that the model builds from stages (model/breakpoints.h): phi_i is the curve whose
+ * i-th force is 1 N and whose other forces are 0. Given the strokes of the stages, the forces c
+ * that minimise
  *
  *   integral of (f(x) - g(x))^2 dx     under     integral of g(x) dx = energy
  *
@@ -21,11 +22,11 @@
 
 typedef struct CzStaged {
     bool is_strength; /* plateaus of a plastic member; else lines through the stages' ends */
-    bool has_preload; /* lines start at a preload that is fitted too */
+    bool has_preload; /* lines start at a preload that is also fitted */
     int n_stage;
     CzStage stage[CZ_MAX_STAGES]; /* stroke and force; other members are not used */
     double preload;               /* [N] */
-    double trigger;               /* [N]; NaN without */
+    double trigger;               /* [N]; NaN if none */
     double trigger_length;        /* [m] */
     double bottom_stiffness;      /* [N/m] */
 } CzStaged;
@@ -47,14 +48,14 @@ int cz_staged_bends(const CzStaged *staged, double at[CZ_MOST_BENDS]);
 
 /* Finds the forces for given strokes, none below a thousandth of the mean force; without the
  * condition when `energy` is NaN. Returns the integral of the squared difference, INFINITY when no
- * such forces have the energy. */
+ * such forces give the energy. */
 double cz_staged_solve(CzStaged *staged, const CzBranch *branch, double energy);
 
 /* Moves breaks between stages (and the length of a trigger) until the integral no longer falls.
  * No stage gets shorter than `shortest`. Returns the integral. */
 double cz_staged_refine(CzStaged *staged, const CzBranch *branch, double energy, double shortest);
 
-/* Integral of the squared difference that rounding may leave of 0. */
+/* Integral of the squared difference that counts as zero because of rounding. */
 double cz_staged_nothing(const CzBranch *branch);
 
 #endif

@@ -6,22 +6,22 @@
  *
  *   d_s = d_e - 2 (A - F_p (d_e - d_o)) / (F_e - F_p),   k_t = (F_e - F_p) / (d_e - d_s)
  *
- * k_t holds the elasticity k in series with the member: 1 / k_bottom = 1 / k_t - 1 / k.
+ * k_t contains the elasticity k in series with the member: 1 / k_bottom = 1 / k_t - 1 / k.
  */
 #include "fit/fit.h"
 
 #include "base/error.h"
 #include "base/number.h"
 
-#define RECENT 0.75 /* of the stroke so far: the level is the mean from there on (ours) */
-#define LEVEL 1.1   /* of the mean force of the stroke so far: above it a rise has begun (ours) */
-#define HEIGHT 1.5  /* of the highest force before: less is a stage (ours) */
-#define STEEP 20.0  /* times the stiffness of force over stroke: less is a stage (ours) */
-#define STIFFER 1.1 /* than the stop, the elasticity in series with it at least (ours) */
-#define RAISED 2.0  /* the same where it has to be raised (ours) */
+#define RECENT 0.75 /* of the stroke so far: the level is the mean from this stroke on (ours) */
+#define LEVEL 1.1   /* of the mean force of the stroke so far: a rise begins above it (ours) */
+#define HEIGHT 1.5  /* of the highest force before: a lower rise is a stage (ours) */
+#define STEEP 20.0  /* times the ratio of force to stroke: a flatter rise is a stage (ours) */
+#define STIFFER 1.1 /* smallest ratio of the series elasticity to the stop (ours) */
+#define RAISED 2.0  /* likewise where the elasticity must be raised (ours) */
 
-/* The last point whose force is no higher than what the last quarter of the stroke so far carries.
- * More than that would take the end of a plateau that rises for a part of the stop. */
+/* The last point whose force is not above the level of the last quarter of the stroke so far, so
+ * that the end of a rising plateau does not count as a part of the stop. */
 static int find_onset(const CzBranch *curve) {
     int i = curve->n - 1;
     while (i > 0 && curve->f[i] > LEVEL * cz_branch_mean(curve, RECENT * curve->x[i], curve->x[i]))

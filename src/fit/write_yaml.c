@@ -15,7 +15,7 @@ static const char *text_of(char text[CZ_NUMBER_TEXT], double value) {
     return cz_number_print_short(text, value);
 }
 
-/* To a tenth of a percent. */
+/* A share in percent with one decimal. */
 static const char *percent_of(char text[CZ_NUMBER_TEXT], double share) {
     return cz_number_print_short(text, round(1e3 * share) / 10.0);
 }
@@ -51,7 +51,7 @@ static void write_head(const CzFitSummary *summary, FILE *stream) {
         percent_of(c, summary->law_whole_energy / summary->whole_energy));
 }
 
-/* One line of stages: stroke and force, which follow each other. */
+/* Writes one line of stages: stroke and force, which are successive values. */
 static void write_stage(const CzFit *fit, int i, int indent, FILE *stream) {
     char stroke[CZ_NUMBER_TEXT], force[CZ_NUMBER_TEXT];
     if (strstr(fit->value[i].path, "stages[0]") != NULL)

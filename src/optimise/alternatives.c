@@ -1,19 +1,20 @@
 /* Further parameter sets that fit about as well. A fit with more parameters than measurements, or
- * with insensitive ones, has many solutions, and a report of one would hide that.
+ * with insensitive ones, has many solutions, which a report of one would hide.
  */
 #include "base/error.h"
 #include "optimise/outcome.h"
 
 #include <math.h>
 
-/* Sets that are reported at most, how much worse than the best they may be when it misses a
- * tolerance, and how far apart they lie: root mean square share of the ranges (all ours). */
+/* Largest number of sets reported, largest ratio of their objective to the best when that exceeds a
+ * tolerance, and smallest distance between them as a root mean square share of the ranges (all
+ * ours). */
 enum { MOST = 5 };
 static const double about_as_well = 1.2;
 static const double apart = 0.1;
 
 /* Whether a record fits about as well as the best one: within every tolerance like it, or with
- * nearly the same sum of squares, constraints beside them counted in. */
+ * nearly the same sum of squares, constraints included. */
 static bool fits(const CzSearch *search, long record, long best) {
     const CzRecord *mine = &search->record[record];
     if (isnan(mine->objective))
@@ -23,7 +24,7 @@ static bool fits(const CzSearch *search, long record, long best) {
                : mine->penalty <= about_as_well * search->record[best].penalty;
 }
 
-/* The best record that fits and lies apart from the n chosen ones, -1 when there is none; u is
+/* The best record that fits and is distant from the n chosen ones, -1 when there is none; u is
  * scratch. */
 static long next_apart(const CzSearch *search, long best, int n_chosen, const double *chosen,
                        double *u) {

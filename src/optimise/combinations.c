@@ -6,9 +6,9 @@
 
 #include <string.h>
 
-/* The best on the catalogue increments when there are any. A search that ended before it came to
- * them results in the best of all, and so does one whose only designs that pass, or that a file may
- * hold, lie between them. */
+/* The best on the catalogue increments when there are any. Otherwise the best of all: when the
+ * search ended before it reached the increments, or when designs that pass, or that are valid in a
+ * file, exist only between them. */
 static long best_record(const CzSearch *search) {
     const long best = search->best, on_grid = search->best_on_grid;
     if (!cz_search_has_steps(search) || !search->is_snapped || on_grid < 0)
@@ -29,7 +29,7 @@ long cz_combinations_record(const CzSearch *search) {
 static CzStatus run(CzSearch *search, const CzOptimiseOptions *options, CzError *error) {
     const char *algorithm = strcmp(options->algorithm, "auto") == 0 ? NULL : options->algorithm;
     CzStatus status = CZ_OK;
-    if (search->function->n_variable == 0) /* the choices alone */
+    if (search->function->n_variable == 0) /* only choices vary */
         cz_search_evaluate_start(search, "choices");
     else
         status = cz_strategy(search, algorithm, (unsigned long)options->seed, error);
@@ -57,7 +57,7 @@ static bool is_better(const CzSearch *search, const CzSearch *other) {
                                 : mine->penalty < theirs->penalty;
 }
 
-/* Begins and runs one more search. */
+/* Begins and runs a further search. */
 static CzStatus begin(CzCombinations *combinations, CzEvaluator *evaluator, int combination,
                       const double *start, long evaluations, const CzOptimiseOptions *options,
                       CzError *error) {
@@ -80,7 +80,8 @@ static CzStatus begin(CzCombinations *combinations, CzEvaluator *evaluator, int 
     return status;
 }
 
-/* A short search of every combination, then all that is left for the best one. */
+/* Runs a short search of every combination, then uses all remaining evaluations for the best
+ * one. */
 static CzStatus search_choices(CzEvaluator *evaluator, int n, const CzOptimiseOptions *options,
                                CzCombinations *combinations, CzError *error) {
     const long half = options->evaluations / (2 * (long)n);

@@ -1,5 +1,5 @@
-/* All searches of one optimisation: one for each combination of choices, and one more from the best
- * of them. Without choices it is a single search.
+/* All searches of one optimisation: one for each combination of choices, and a further one from the
+ * best of them. Without choices it is a single search.
  */
 #ifndef CZ_OPTIMISE_COMBINATIONS_H
 #define CZ_OPTIMISE_COMBINATIONS_H
@@ -13,15 +13,15 @@ typedef struct CzCombinations {
     int chosen;           /* search with the best design */
 } CzCombinations;
 
-/* Runs all searches with options that have no defaults left. Statuses: CZ_OK, also when stopped;
- * CZ_STATUS_RUN_FAILED when designs of every combination failed, CZ_STATUS_INPUT,
+/* Runs all searches; `options` has no default values left to fill in. Statuses: CZ_OK, also when
+ * stopped; CZ_STATUS_RUN_FAILED when designs of every combination failed, CZ_STATUS_INPUT,
  * CZ_STATUS_NO_MEMORY. The caller frees the combinations in any case. */
 CZ_MUST_CHECK CzStatus cz_combinations(CzEvaluator *evaluator, const CzOptimiseOptions *options,
                                        CzCombinations *combinations, CzError *error);
 void cz_combinations_free(CzCombinations *combinations);
 
 /* The record with the result of a search: the best one on the catalogue increments when there are
- * any. -1 when the search evaluated no design that a file may hold without a failed run. */
+ * any. -1 when the search evaluated no design that is valid in a file and has no failed run. */
 long cz_combinations_record(const CzSearch *search);
 
 #endif

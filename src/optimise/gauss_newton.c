@@ -1,12 +1,12 @@
-/* Gauss and Newton's method with Levenberg and Marquardt's damping, within bounds.
+/* Gauss-Newton method with Levenberg-Marquardt damping, within bounds.
  *
  *   r(u + p) ~ r + J p          J by secants, n designs side by side
  *   minimise |r + J p|^2 + damping |p|^2   with 0 <= u + p <= 1
  *
- * The small problem is solved exactly by turns over its variables, which keeps to the bounds; three
- * dampings are tried side by side. Residuals are smooth where their sum of squares is not yet
- * quadratic, so this needs a tenth of the evaluations of methods that use the sum alone.
- * Constraints of the problem beside its matches are residuals as long as they are violated.
+ * The small problem is solved exactly by cyclic minimisation over its variables within the bounds;
+ * three dampings are tried side by side. Residuals are smooth where their sum of squares is not yet
+ * quadratic, so this requires a tenth of the evaluations of methods that use the sum alone. Further
+ * constraints of the problem are residuals as long as they are violated.
  */
 #include "optimise/gauss_newton.h"
 #include "base/arena.h"
@@ -21,7 +21,7 @@ typedef struct Newton {
     CzArena arena;
     CzSearch *search;
     const char *phase;
-    int n, m, n_detail;  /* variables, residuals, those of them that are matches */
+    int n, m, n_detail;  /* numbers of variables, of residuals, of residuals that are matches */
     double *u, *r, f;    /* base (n), its residuals (m) and their sum of squares */
     double *slope;       /* J (m x n) */
     double *x, *many_f;  /* (most x n), (most) with `most` designs side by side */
@@ -61,7 +61,7 @@ static double sum_of_squares(const double *r, int m) {
     return sum;
 }
 
-/* Evaluates designs of `tried` and gathers their residuals. */
+/* Evaluates designs of `tried` and collects their residuals. */
 static bool evaluate(Newton *newton, int n_point) {
     const CzFunction *function = newton->search->function;
     cz_search_unscale(newton->search, n_point, newton->tried, newton->x);
@@ -109,7 +109,7 @@ static bool find_slopes(Newton *newton, double secant) {
     return true;
 }
 
-/* The best step with a damping, by turns over the variables. */
+/* The best step with a damping, by cyclic minimisation over the variables. */
 static void solve(Newton *newton, double damping, double *u) {
     const int n = newton->n, m = newton->m;
     memcpy(newton->rest, newton->r, (size_t)m * sizeof(double));
@@ -136,8 +136,8 @@ static void solve(Newton *newton, double damping, double *u) {
     }
 }
 
-/* Tries three dampings and moves to the best design if it gains. Returns the length of the step, 0
- * without a gain, below 0 when the search is over. */
+/* Tries three dampings and moves to the best design if it is an improvement. Returns the length of
+ * the step, 0 without an improvement, below 0 when the search is over. */
 static double try_step(Newton *newton, double *damping) {
     for (int k = 0; k < DAMPINGS; k++)
         solve(newton, *damping * pow(10, 2 * (k - 1)), newton->tried + k * newton->n);

@@ -1,8 +1,8 @@
 /* NLopt behind one function.
  *
- * It asks for the objective and for the constraints one after the other at the same point, so the
- * last point is remembered and one evaluation serves both. Gradients are secants: n further designs
- * are evaluated side by side. NLopt gets finite numbers only, always has a limit and a tolerance,
+ * NLopt requests the objective and the constraints one after the other at the same point, so the
+ * last point is stored and evaluated only once. Gradients are secants: n further designs are
+ * evaluated side by side. NLopt receives finite numbers only, always has a limit and a tolerance,
  * and its result is not used: the search keeps the best design.
  */
 #include "optimise/nlopt_adapter.h"
@@ -115,7 +115,7 @@ static bool bridge_allocate(Bridge *bridge) {
 }
 
 /* Evaluates n_point designs of bridge->x, or stops NLopt where the search or this run's share of it
- * ends: at every call again, because a nested algorithm forgets it. */
+ * ends; it does so at every call, because a nested algorithm ignores an earlier stop. */
 static bool evaluate(Bridge *bridge, int n_point) {
     if (bridge->search->n_record + n_point > bridge->limit ||
         !cz_search_evaluate(bridge->search, bridge->run->phase, n_point, bridge->x, bridge->many_f,
@@ -168,7 +168,7 @@ static bool prepare(Bridge *bridge, const double *given, bool wants_gradient) {
     return true;
 }
 
-/* Objective in the form of this run. After a stop the number does not matter, but is finite. */
+/* Objective in the form of this run. After a stop the number is not used, but is finite. */
 static double objective(unsigned n_all, const double *u, double *gradient, void *data) {
     Bridge *bridge = data;
     const int n = bridge->n;
@@ -247,14 +247,14 @@ static nlopt_result set_local(const Bridge *bridge, nlopt_algorithm algorithm) {
     return result;
 }
 
-/* Most calls of this run; some algorithms allocate memory for as many. */
+/* Largest number of calls of this run; some algorithms allocate memory for that many. */
 static int most_calls(const Bridge *bridge) {
     const long left = cz_search_left(bridge->search);
     const long share = bridge->run->evaluations < left ? bridge->run->evaluations : left;
     return share < 10000000 ? (int)share + 1 : 10000000;
 }
 
-/* Bounds, tolerances, limit, first step: everything but objective and constraints. */
+/* Sets bounds, tolerances, limit and first step: everything except objective and constraints. */
 static nlopt_result set_frame(Bridge *bridge, nlopt_algorithm algorithm, double most_s) {
     const CzNloptRun *run = bridge->run;
     nlopt_opt opt = bridge->opt;
@@ -273,7 +273,7 @@ static nlopt_result set_frame(Bridge *bridge, nlopt_algorithm algorithm, double 
     if (result > 0 && run->first_step > 0)
         result = nlopt_set_initial_step1(opt, run->first_step);
     if (result > 0 && strstr(run->algorithm, "ISRES") != NULL)
-        result = nlopt_set_population(opt, 50); /* its own choice is a random search at our sizes */
+        result = nlopt_set_population(opt, 50); /* its default is a random search at our sizes */
     if (result > 0 && needs_local(algorithm))
         result = set_local(bridge, algorithm);
     return result;

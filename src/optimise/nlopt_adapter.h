@@ -4,11 +4,11 @@
 
 #include "optimise/search.h"
 
-/* How constraints reach the algorithm. */
+/* How constraints are passed to the algorithm. */
 typedef enum CzForm {
     CZ_FORM_NATIVE,  /* as constraints where the algorithm accepts them, else by penalty */
-    CZ_FORM_PENALTY, /* minimise f + weight * sum of what is violated */
-    CZ_FORM_ELASTIC  /* minimise f + weight * s with constraints <= s and s >= 0; with a minimax
+    CZ_FORM_PENALTY, /* minimise f + weight * sum of the violations */
+    CZ_FORM_ELASTIC  /* minimise f + weight * s with constraints <= s and s >= 0; for a minimax
                         objective minimise s alone */
 } CzForm;
 
@@ -16,21 +16,21 @@ typedef struct CzNloptRun {
     const char *algorithm; /* such as "LD_SLSQP" */
     const char *phase;     /* for history and progress */
     CzForm form;
-    long evaluations;  /* most designs of this run, those for gradients included */
+    long evaluations;  /* largest number of designs of this run, those for gradients included */
     double weight;     /* of the penalty */
-    double reserve;    /* distance below 0 that is demanded of constraints */
+    double reserve;    /* required distance of constraints below 0 */
     double secant;     /* step of differences, share of the range */
-    double first_step; /* share of the range; 0 leaves it to the algorithm */
+    double first_step; /* share of the range; 0: chosen by the algorithm */
     double tolerance;  /* on scaled variables */
     unsigned long seed;
 } CzNloptRun;
 
-/* The usual run of an algorithm. */
+/* Default settings of an algorithm. */
 CzNloptRun cz_nlopt_run_default(const char *algorithm);
 
-/* Runs from scaled variables u (n_variable). The result is in the search. Statuses: CZ_OK for every
- * reason why the algorithm ended, CZ_STATUS_INPUT for an algorithm that does not exist or refuses
- * this many variables, CZ_STATUS_NO_MEMORY. */
+/* Runs from scaled variables u (n_variable). The result is in the search. Statuses: CZ_OK however
+ * the algorithm ended, CZ_STATUS_INPUT for an algorithm that does not exist or does not accept this
+ * number of variables, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_nlopt_run(CzSearch *search, const CzNloptRun *run, const double *u,
                                     CzError *error);
 

@@ -1,4 +1,4 @@
-/* Search for a design that passes: from an evaluator to an outcome. */
+/* Searches a design that passes, and fills the outcome. */
 #include "crushzone/optimise.h"
 #include "base/clock.h"
 #include "base/error.h"
@@ -57,7 +57,7 @@ typedef struct Passed {
     long record;
 } Passed;
 
-/* The better one first, of equal ones the earlier. */
+/* Sorts the better one first, of equal ones the earlier. */
 static int compare_passed(const void *one, const void *other) {
     const Passed *a = one, *b = other;
     if (cz_search_is_better(a->search, a->record, b->record))
@@ -67,9 +67,9 @@ static int compare_passed(const void *one, const void *other) {
     return (a->record > b->record) - (a->record < b->record);
 }
 
-/* Lists the designs that passed in the search, each once, best first after that of a given record;
- * those on the catalogue increments alone when that one is. `list` has room for all records.
- * Returns how many, -1 without memory. */
+/* Lists the designs that passed in the search, each once: first that of a given record, then the
+ * best first; only designs on the catalogue increments when that record is. `list` has room for all
+ * records. Returns how many, -1 without memory. */
 static long rank_passed(const CzSearch *search, long first, Passed *list) {
     const size_t size = (size_t)search->function->n_variable * sizeof(double);
     const bool on_grid = search->record[first].on_grid;
@@ -92,14 +92,14 @@ static long rank_passed(const CzSearch *search, long first, Passed *list) {
     return has_memory ? n : -1;
 }
 
-/* Whether one evaluation in full is preferred to another one. */
+/* Whether one full evaluation is preferred to another one. */
 static bool is_preferred(const CzEvaluation *one, const CzEvaluation *other) {
     if (one->violation > 0 || other->violation > 0)
         return one->violation < other->violation;
     return one->objective < other->objective;
 }
 
-/* Where the best design of a search is confirmed. */
+/* Confirmation of the best design of a search. */
 typedef struct Confirmation {
     CzEvaluator *evaluator;
     const CzSubspace *subspace;
@@ -107,7 +107,7 @@ typedef struct Confirmation {
     double *x; /* scratch (n_variable) */
 } Confirmation;
 
-/* Evaluates a design in full and keeps it as the best one when it is preferred; returns whether it
+/* Evaluates a design in full and stores it as the best one when it is preferred; returns whether it
  * passes. */
 static CzStatus try_in_full(const Confirmation *confirmation, const double *number, bool *passes,
                             CzError *error) {
@@ -126,10 +126,10 @@ static CzStatus try_in_full(const Confirmation *confirmation, const double *numb
     return CZ_OK;
 }
 
-/* The first of n ranked designs does not pass in full. Designs that are alike fail alike, so the
- * next ones are tried in steps that double, and the last step is halved until the best design that
- * passes is the neighbour of one that does not. Last comes the start, which the search may have
- * left. */
+/* The first of n ranked designs does not pass in full. Similar designs fail in the same way, so the
+ * next ones are tried at doubling distances in the list, and the last distance is halved until the
+ * best design that passes follows one that does not. The start is tried last, because the search
+ * may have left it. */
 static CzStatus find_passing(const Confirmation *confirmation, long n, const Passed *list,
                              CzError *error) {
     const CzSearch *search = &confirmation->subspace->search;
@@ -144,13 +144,13 @@ static CzStatus find_passing(const Confirmation *confirmation, long n, const Pas
     return try_in_full(confirmation, search->function->start, &passes, error);
 }
 
-/* Evaluates the chosen record in full. Runs of a search end once they have settled; where the full
- * run finds a violation that came later, the next best designs are tried. */
+/* Evaluates the chosen record in full. Runs of a search end as soon as their results are final; if
+ * the full run finds a later violation, the next best designs are tried. */
 static CzStatus confirm_best(const Confirmation *confirmation, CzError *error) {
     CzOutcome *outcome = confirmation->outcome;
     const CzSearch *search = &confirmation->subspace->search;
     const long record = cz_combinations_record(search);
-    /* Without a record the start is known to be readable, the nearest increments are not. */
+    /* Without a record the start is known to be valid; the nearest increments may not be. */
     cz_subspace_expand(confirmation->subspace,
                        record < 0 ? search->function->start : cz_search_x(search, record),
                        outcome->best);
@@ -167,7 +167,7 @@ static CzStatus confirm_best(const Confirmation *confirmation, CzError *error) {
     return status;
 }
 
-/* Evaluates start and best again, from the file's numbers, with all channels recorded. */
+/* Evaluates start and best design again, from the file's numbers, with all channels recorded. */
 static CzStatus confirm(CzEvaluator *evaluator, const CzSubspace *subspace, CzOutcome *outcome,
                         CzError *error) {
     const Confirmation confirmation = {
@@ -183,7 +183,7 @@ static CzStatus confirm(CzEvaluator *evaluator, const CzSubspace *subspace, CzOu
     return CZ_OK;
 }
 
-/* Whether the best design misses a catalogue increment. */
+/* Whether the best design is off a catalogue increment. */
 static bool is_between_steps(const CzSubspace *subspace, const CzOutcome *outcome) {
     const CzSearch *search = &subspace->search;
     for (long record = 0; record < search->n_record; record++) {
@@ -196,7 +196,7 @@ static bool is_between_steps(const CzSubspace *subspace, const CzOutcome *outcom
     return false;
 }
 
-/* Writes why the last search ended. */
+/* Writes the reason why the last search ended. */
 static void write_end(const CzCombinations *combinations, long limit, const CzOutcome *outcome,
                       size_t room, char *text) {
     const CzSearch *search = &combinations->subspace[combinations->n - 1].search;

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The outcome stands first, so that its address is that of the whole. */
+/* The outcome is the first member, so that its address is that of the struct. */
 typedef struct Owned {
     CzOutcome outcome;
     CzArena arena;
@@ -81,9 +81,9 @@ CzStatus cz_outcome_verify(CzEvaluator *evaluator, const CzOptimiseOptions *opti
     return status == CZ_STATUS_INTERRUPTED ? CZ_OK : status;
 }
 
-/* ---- the record of a search that was done before ------------------------------------------------
+/* ---- the record of an earlier search ------------------------------------------------
  *
- * Nothing is searched, but start and best design are evaluated anew. */
+ * There is no search; start and best design are evaluated again. */
 
 static CzStatus fill(CzEvaluator *evaluator, const CzRecall *recall, CzOutcome *outcome,
                      CzError *error) {

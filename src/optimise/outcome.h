@@ -18,18 +18,19 @@ CzStatus cz_outcome_pass_on(CzOutcome *made, CzStatus status, CzOutcome **outcom
 /* Fills `at_bound` from `best`. */
 void cz_outcome_mark_bounds(const CzEvaluator *evaluator, CzOutcome *outcome);
 
-/* Verifies a design that passes. A signal leaves it unverified. */
+/* Verifies a design that passes. After a signal it remains unverified. */
 CZ_MUST_CHECK CzStatus cz_outcome_verify(CzEvaluator *evaluator, const CzOptimiseOptions *options,
                                          CzOutcome *outcome, CzError *error);
 
 /* Adds to the outcome of a fit the best parameter sets that fit about as well as record `best` and
- * lie apart from it and from one another (alternatives.c). Statuses: CZ_OK, CZ_STATUS_NO_MEMORY. */
+ * are distant from it and from one another (alternatives.c). Statuses: CZ_OK,
+ * CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_alternatives_find(const CzSubspace *subspace, long best,
                                             CzOutcome *outcome, CzError *error);
 
 /* Fills `sensitivity_increment`, `objective_change` and `constraint_change` from one run of each
- * changed design, made as in a search; leaves the first NULL when the stop flag is up
- * (sensitivity.c). Statuses: CZ_OK, CZ_STATUS_NO_MEMORY. */
+ * changed design, with the run settings of a search; leaves the first NULL when the stop flag is
+ * set (sensitivity.c). Statuses: CZ_OK, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_sensitivity_take(CzEvaluator *evaluator,
                                            const volatile sig_atomic_t *stop, CzOutcome *outcome,
                                            CzError *error);

@@ -2,15 +2,15 @@
  *
  *   u_i(k) = frac(shift_i + k / phi^(i + 1)),   phi^(n + 1) = phi + 1
  *
- * the additive recurrence of M. Roberts (2018) with the generalised golden ratio; the shift comes
- * from the seed by the splitmix64 generator.
+ * the additive recurrence of M. Roberts (2018) with the generalised golden ratio; the shift is
+ * generated from the seed by splitmix64.
  */
 #include "optimise/strategy.h"
 
 #include <math.h>
 #include <stdint.h>
 
-/* The root of x^(n + 1) = x + 1 above 1, by a fixed number of Newton steps. */
+/* The root above 1 of x^(n + 1) = x + 1, by a fixed number of Newton steps. */
 static double generalised_golden_ratio(int n) {
     double x = 1.5;
     for (int step = 0; step < 60; step++) {

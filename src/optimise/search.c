@@ -42,7 +42,7 @@ long cz_search_left(const CzSearch *search) {
     return search->is_over || search->is_paused ? 0 : search->most_evaluations - search->n_record;
 }
 
-/* Ends the search when the stop flag is up; whether no evaluation is allowed now. */
+/* Ends the search when the stop flag is set; returns whether no evaluation is allowed now. */
 static bool is_stopped(CzSearch *search) {
     if (!search->is_over && search->stop != NULL && *search->stop != 0)
         finish(search, CZ_STATUS_INTERRUPTED, "interrupted");
@@ -105,7 +105,7 @@ void cz_search_round(const CzSearch *search, const double *x, double *rounded) {
             value = cz_increment_not_above(step, hi);
         if (value < lo)
             value = cz_increment_not_below(step, lo);
-        rounded[i] = value < lo || value > hi ? lo : value; /* no step within the bounds */
+        rounded[i] = value < lo || value > hi ? lo : value; /* no increment within the bounds */
     }
 }
 
@@ -161,7 +161,7 @@ static bool make_room(CzSearch *search, long n) {
     return record != NULL && x != NULL;
 }
 
-/* Whether a record improves the best one so much that the search goes on. */
+/* Whether a record improves the best one enough to continue the search. */
 static bool is_gain(const CzSearch *search, long record) {
     if (search->best < 0)
         return true;
@@ -235,8 +235,8 @@ static void watch_failures(CzSearch *search) {
 
 /* ---- evaluating ------------------------------------------------------------------------------ */
 
-/* Above this a violation counts by its logarithm, so that a limit of 0 exceeded a hundredfold does
- * not hide a strength exceeded by a half. Slopes stay continuous, and the order is kept. */
+/* Above this a violation counts logarithmically, so that a hundredfold excess over a limit of 0
+ * does not mask a strength exceeded by a half. Slopes remain continuous, and the order is kept. */
 static const double knee = 0.1;
 
 double cz_search_compressed(double constraint) {
@@ -263,8 +263,8 @@ static double distance_from_best(const CzSearch *search, const double *x) {
 }
 
 /* Records the values of one design and makes them finite and smooth for an algorithm. */
-static void take_values(CzSearch *search, const char *phase, const double *x, double *objective,
-                        double *constraint, double *detail) {
+static void record_values(CzSearch *search, const char *phase, const double *x, double *objective,
+                          double *constraint, double *detail) {
     const int m = search->function->n_constraint;
     const int n_detail = detail != NULL ? cz_search_n_detail(search) : 0;
     if (n_detail > 0 && search->function->n_detail == 0)
@@ -333,9 +333,9 @@ bool cz_search_evaluate(CzSearch *search, const char *phase, int n, const double
         return false;
     }
     for (int i = 0; i < n; i++) {
-        take_values(search, phase, x + i * function->n_variable, &objective[i],
-                    constraint + i * function->n_constraint,
-                    detail != NULL ? detail + i * cz_search_n_detail(search) : NULL);
+        record_values(search, phase, x + i * function->n_variable, &objective[i],
+                      constraint + i * function->n_constraint,
+                      detail != NULL ? detail + i * cz_search_n_detail(search) : NULL);
         report_progress(search, phase);
     }
     watch_failures(search);

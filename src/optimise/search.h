@@ -1,9 +1,9 @@
-/* One search. Every evaluation goes through it, so that the limit of evaluations, the history, the
- * best design so far and the stop flag are in one place for every algorithm.
+/* One search. All algorithms evaluate designs through it, so that the limit of evaluations, the
+ * history, the best design so far and the stop flag are in one place.
  *
- * Algorithms get variables scaled to 0..1 and finite numbers only. The value of a design that
- * failed is above all values so far and rises with the distance from the best design; it is never
- * the best one.
+ * Algorithms receive variables scaled to 0..1 and finite numbers only. The value of a failed design
+ * is above all values so far and rises with the distance from the best design; a failed design is
+ * never the best one.
  */
 #ifndef CZ_OPTIMISE_SEARCH_H
 #define CZ_OPTIMISE_SEARCH_H
@@ -13,20 +13,19 @@
 #include "crushzone/optimise.h"
 #include "evaluate/evaluator.h"
 
-/* What is searched. Arrays are borrowed. */
+/* The function to minimise. Arrays are borrowed. */
 typedef struct CzFunction {
     int n_variable, n_constraint;
     const double *min, *max, *start; /* in the variables' units (n_variable) */
     const double *step;              /* catalogue increments, 0 for none (n_variable) */
-    const CzConstraintKind *kind; /* of constraints (n_constraint); NULL: all are graded. A design
-                                     is ranked by those that are a yes or no, but algorithms do not
-                                     see the step; one that breaks the rules of files is the best
-                                     only as long as every other one does, too */
+    const CzConstraintKind *kind; /* of constraints (n_constraint); NULL: all are graded; algorithms
+                                     do not see constraints that are a yes or no; an invalid design
+                                     is the best only while all are */
     int n_detail;    /* constraints place by place, so without the breakpoints of the worst place; 0
                         when there are none */
     bool is_minimax; /* the objective is the largest constraint, up to a constant */
-    bool is_fit;     /* the objective is a sum of squares, the details are its residuals, and the
-                        flags are whether each is small enough */
+    bool is_fit; /* the objective is a sum of squares, the details are its residuals, and flags tell
+                    whether each is small enough */
 
     /* Evaluates n_point designs: x is (n_point x n_variable), objective (n_point) with NaN for a
      * failed design, constraint (n_point x n_constraint), satisfied when at most 0, detail (n_point
@@ -36,7 +35,7 @@ typedef struct CzFunction {
     void *data;
 } CzFunction;
 
-/* What a constraint is. */
+/* Kind of a constraint. */
 static inline CzConstraintKind cz_constraint_kind(const CzFunction *function, int constraint) {
     return function->kind != NULL ? function->kind[constraint] : CZ_CONSTRAINT_GRADED;
 }
@@ -45,10 +44,10 @@ static inline CzConstraintKind cz_constraint_kind(const CzFunction *function, in
 typedef struct CzRecord {
     double objective; /* NaN when failed */
     double violation; /* largest positive constraint; infinite when failed */
-    double penalty;   /* sum of the compressed positive constraints, of a fit with the sum of
+    double penalty;   /* sum of the compressed positive constraints, for a fit with the sum of
                          squares: infeasible designs are ranked by it */
     const char *phase;
-    bool on_grid;   /* every variable lies on its catalogue increment */
+    bool on_grid;   /* every variable is on its catalogue increment */
     bool is_barred; /* a rule of problem files is broken */
     double missed;  /* largest positive constraint that is not a yes or no; 0 when there is none */
 } CzRecord;
@@ -60,7 +59,7 @@ typedef struct CzSearch {
     void (*progress)(const CzProgress *progress, void *data);
     void *progress_data;
 
-    long n_earlier, most_in_all; /* evaluations of earlier searches, and limit of all together, for
+    long n_earlier, most_in_all; /* evaluations of earlier searches, and limit of all searches, for
                                     the progress */
 
     long n_record, room;
@@ -71,17 +70,18 @@ typedef struct CzSearch {
     long last_gain;    /* number of evaluations when the best last improved by more than 0.1 % */
 
     double worst_objective, worst_constraint; /* over the designs that did not fail */
-    bool is_over;         /* no further evaluation is allowed; `status` and `why` give the reason */
-    bool is_snapped;      /* the catalogue increments around the best design have been evaluated */
-    bool is_spent;        /* all evaluations but those for the catalogue increments were used */
-    bool is_paused;       /* most of the latest designs failed, so the phase ends */
+    bool is_over;    /* no further evaluation is allowed; `status` and `why` give the reason */
+    bool is_snapped; /* the catalogue increments around the best design have been evaluated */
+    bool is_spent;   /* all evaluations except those for the catalogue increments have been used */
+    bool is_paused;  /* most of the latest designs failed, so the phase ends */
     long n_before_window; /* records before the window in which failures are counted */
     CzStatus status;
     CzError error;
     char why[128];
 } CzSearch;
 
-/* Starts a search; `options` gives limit, stop flag and progress. Frees nothing of the function. */
+/* Starts a search; `options` gives limit, stop flag and progress. It takes no ownership of the
+ * function. */
 void cz_search_init(CzSearch *search, const CzFunction *function, const CzOptimiseOptions *options);
 void cz_search_free(CzSearch *search);
 
@@ -110,15 +110,14 @@ bool cz_search_evaluate_start(CzSearch *search, const char *phase);
 /* A constraint on the scale of penalties: unchanged up to 0.1, logarithmic above. */
 double cz_search_compressed(double constraint);
 
-/* The residual of a constraint that a fit has beside its matches: above 0 from a little below the
- * limit on. */
+/* The residual of a further constraint of a fit: above 0 from slightly below the limit on. */
 double cz_search_residual(double constraint);
 
-/* Scaled to natural variables of n designs: u in 0..1 is clamped. */
+/* Converts scaled variables of n designs to natural ones; u is clamped to 0..1. */
 void cz_search_unscale(const CzSearch *search, int n, const double *u, double *x);
 void cz_search_scale(const CzSearch *search, const double *x, double *u);
 
-/* Step of a scaled variable for a difference: down where a step up would leave the box. */
+/* Step of a scaled variable for a secant: negative where a positive step would leave the bounds. */
 static inline double cz_search_secant(double at, double step) {
     return at + step <= 1 ? step : -step;
 }
@@ -131,8 +130,8 @@ bool cz_search_is_apart(const CzSearch *search, long record, int n_chosen, const
 /* Variables of a record (n_variable). */
 const double *cz_search_x(const CzSearch *search, long record);
 
-/* Whether a record is better: designs that a file may hold come first, then the smaller penalty
- * counts, then the smaller objective. */
+/* Whether a record is better: valid designs first, then by smaller penalty, then by smaller
+ * objective. */
 bool cz_search_is_better(const CzSearch *search, long record, long other);
 
 /* Record with exactly these variables, -1 when there is none. */

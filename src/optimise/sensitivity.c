@@ -3,9 +3,9 @@
  *   change_ij = c_i(x + h_j e_j) - c_i(x)
  *
  * where h_j is one catalogue increment or more, at least 2 % of the range, and negative at the
- * upper bound. A step of this size is a change that a designer would make; a derivative would show
- * the chaotic response of a long train. Both designs are run as in a search, so that they differ in
- * the design alone.
+ * upper bound. A step of this size is a change that a designer would make; a derivative would be
+ * dominated by the chaotic response of a long train. Both designs are run as in a search, so that
+ * only the design differs.
  */
 
 #include "base/error.h"
@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SMALLEST_SHARE 0.02 /* of a variable's range that a step is at least (ours) */
+#define SMALLEST_SHARE 0.02 /* smallest step as a share of a variable's range (ours) */
 
 /* The step of a variable at a value, negative towards the lower bound; 0 when there is none. */
 static double step_of(const CzVariableInfo *variable, double value) {

@@ -1,8 +1,8 @@
-/* From the best design to the best one of the catalogue: every variable on its increment.
+/* Moves from the best design to the best one with every variable on its catalogue increment.
  *
  * The response surface ranks the designs on the increments, and the best of them are simulated:
- * first the corners of the cell of increments around the best design, then what differs by one
- * increment, or by one in each of two variables, from the best design on the increments.
+ * first the corners of the cell of increments around the best design, then designs that differ by
+ * one increment, or by one in each of two variables, from the best design on the increments.
  */
 #include "optimise/strategy.h"
 
@@ -13,15 +13,16 @@
 enum {
     BATCH = 6,           /* designs on the increments that are simulated side by side */
     MOST_OPEN = 12,      /* variables whose rounding is tried both ways: 4096 corners */
-    MOST_WALK = 40,      /* steps of a walk on the planes */
-    MOST_IDLE = 2,       /* batches without gain before a feasible design is taken */
-    MOST_IDLE_BROKEN = 8 /* likewise of an infeasible one */
+    MOST_WALK = 40,      /* steps of a path on the planes */
+    MOST_IDLE = 2,       /* batches without an improvement before a feasible design is accepted */
+    MOST_IDLE_BROKEN = 8 /* likewise for an infeasible one */
 };
 
-/* Increments are coarse, so the slopes that rank them are taken over about as far. */
+/* Secant step of the slopes that rank designs on the increments: of the order of the increments. */
 static const double secant = 0.05;
 
-/* How far from their base the planes are used, in scaled variables, if not within one increment. */
+/* Largest distance from their base at which the planes are used, in scaled variables, unless within
+ * one increment. */
 static const double farthest = 0.1;
 
 typedef struct Design {
@@ -75,8 +76,8 @@ static Design *find_alike(Shortlist *list, const Design *new) {
     return NULL;
 }
 
-/* Takes a design into the list unless it has been simulated, is like a listed one that is nearer to
- * the base, or is not among the best. */
+/* Adds a design to the list unless it has been simulated, equals a listed one that is nearer to the
+ * base, or is not among the best. */
 static void offer(Shortlist *list, const double *x) {
     const CzSurface *surface = list->surface;
     const int at = list->n_design;
@@ -151,7 +152,8 @@ static void offer_corners(Shortlist *list, const double *x, double *near, double
     }
 }
 
-/* Offers what differs from a design by one increment in one variable or in each of two. */
+/* Offers the designs that differ from a design by one increment in one variable or in each of
+ * two. */
 static void offer_neighbours(Shortlist *list, const double *x, double *other) {
     const CzSearch *search = list->surface->search;
     const int n = list->surface->n;
@@ -165,7 +167,7 @@ static void offer_neighbours(Shortlist *list, const double *x, double *other) {
             }
 }
 
-/* Walks on the planes from a design to better and better neighbours and offers all on the path. */
+/* Moves on the planes from a design to successively better neighbours and offers all of them. */
 static void explore(Shortlist *list, const double *from, double *at, double *other) {
     const size_t size = (size_t)list->surface->n * sizeof *at;
     memcpy(at, from, size);
@@ -197,7 +199,7 @@ long cz_snap_reserve(const CzSearch *search) {
     return wanted < share ? wanted : share;
 }
 
-/* Batch after batch until nothing gains. `scratch` is (3 x n_variable). */
+/* Simulates batch after batch until none is an improvement. `scratch` is (3 x n_variable). */
 static void snap(CzSurface *surface, Shortlist *list, long limit, double *scratch) {
     CzSearch *search = surface->search;
     const int n = surface->n;

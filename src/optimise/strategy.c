@@ -1,4 +1,4 @@
-/* The usual strategy, that of a fit, and one algorithm by name.
+/* The default strategy, that of a fit, and single algorithms by name.
  *
  *   screen    the start, then points that fill the box and a smaller one around the start
  *   descend   response surfaces from the best points that lie apart
@@ -6,8 +6,8 @@
  *   snap      to the catalogue increments
  *
  * The objective of a fit is a sum of squares of residuals that change smoothly. It descends by the
- * method of Gauss and Newton, on planes of the residuals, and polishes with that, BOBYQA, Sbplx and
- * COBYLA by turns.
+ * Gauss-Newton method, on planes of the residuals, and polishes with that method, BOBYQA, Sbplx and
+ * COBYLA in turn.
  *
  * All slopes are secants over a share of the range: the response of a long train is chaotic, and
  * its local derivatives do not describe larger steps.
@@ -22,7 +22,8 @@
 
 enum { MOST_STARTS = 6, SCREEN_BATCH = 16, MOST_BATCH = 8 };
 
-/* Half width of the smaller box around the start that every other screening point is drawn from. */
+/* Half width of the smaller box around the start, from which every other screening point is
+ * drawn. */
 static const double near_start = 0.2;
 
 static void screen(CzSearch *search, unsigned long seed, long n_point) {
@@ -52,7 +53,7 @@ static void screen(CzSearch *search, unsigned long seed, long n_point) {
     free(u);
 }
 
-/* The best record that lies apart from all chosen points, -1 when there is none. */
+/* The best record that is distant from all chosen points, -1 when there is none. */
 static long best_apart(const CzSearch *search, int n_chosen, const double *chosen, double apart,
                        double *u) {
     long best = -1;
@@ -65,7 +66,7 @@ static long best_apart(const CzSearch *search, int n_chosen, const double *chose
     return best;
 }
 
-/* Descends from each of the best screened points that lie apart: on response surfaces, or on the
+/* Descends from each of the best distant screening points: on response surfaces, or on the
  * residuals of a fit. */
 static CzStatus descend(CzSurface *surface, long evaluations, CzError *error) {
     CzSearch *search = surface->search;
@@ -79,7 +80,7 @@ static CzStatus descend(CzSurface *surface, long evaluations, CzError *error) {
     CzStatus status = CZ_OK;
     for (int start = 0; start < MOST_STARTS && status == CZ_OK; start++) {
         const long record = best_apart(search, start, chosen, start == 0 ? 0 : 0.15, u);
-        if (is_fit) /* failures further away do not concern this point */
+        if (is_fit) /* failures of earlier, distant points do not count here */
             cz_search_resume(search);
         const long left = limit - search->n_record;
         if (record < 0 || left < 3 * (n + (is_fit ? 3 : 1)) || cz_search_left(search) == 0)
@@ -95,8 +96,8 @@ static CzStatus descend(CzSurface *surface, long evaluations, CzError *error) {
     return status;
 }
 
-/* One more run from the best design, or from the start as long as every design failed. Without an
- * algorithm it is one of Gauss and Newton's method. */
+/* A further run from the best design, or from the start as long as every design failed. Without an
+ * algorithm it is one of the Gauss-Newton method. */
 static CzStatus run_from_best(CzSearch *search, const CzNloptRun *run, bool *gained,
                               CzError *error) {
     const long before = search->last_gain;
@@ -113,8 +114,8 @@ static CzStatus run_from_best(CzSearch *search, const CzNloptRun *run, bool *gai
     return status;
 }
 
-/* COBYLA and elastic SLSQP by turns from the best design, with smaller and smaller steps, until
- * neither gains. */
+/* Runs COBYLA and elastic SLSQP in turn from the best design, with decreasing steps, until neither
+ * improves it. */
 static CzStatus polish(CzSearch *search, long reserve, CzError *error) {
     const int n = search->function->n_variable;
     double step = 0.05, secant = 3e-3;
@@ -141,15 +142,14 @@ static CzStatus polish(CzSearch *search, long reserve, CzError *error) {
     return CZ_OK;
 }
 
-/* The method of a fit at the i-th of four turns, NULL for that of Gauss and Newton; BOBYQA needs
- * two variables. */
+/* The i-th of the four methods of a fit, NULL for Gauss-Newton; BOBYQA needs two variables. */
 static const char *method_at(int i, int n_variable) {
     static const char *const methods[] = {NULL, "LN_BOBYQA", "LN_SBPLX", "LN_COBYLA"};
     return n_variable < 2 && i == 1 ? "LN_COBYLA" : methods[i];
 }
 
-/* Four methods by turns from the best design of a fit, until none of them gains with the smallest
- * step. */
+/* Runs four methods in turn from the best design of a fit, until none of them improves it with the
+ * smallest step. */
 static CzStatus polish_fit(CzSearch *search, long reserve, CzError *error) {
     const int n = search->function->n_variable;
     double step = 0.05;
@@ -191,12 +191,12 @@ static CzStatus search_by_phases(CzSurface *surface, unsigned long seed, CzError
     return is_fit ? polish_fit(search, reserve, error) : polish(search, reserve, error);
 }
 
-/* One algorithm again and again from the best design as long as that gains. */
+/* Repeats one algorithm from the best design as long as that is an improvement. */
 static CzStatus repeat(CzSearch *search, const char *algorithm, unsigned long seed,
                        CzError *error) {
     const long reserve = cz_snap_reserve(search);
     CzNloptRun run = cz_nlopt_run_default(algorithm);
-    bool gained = cz_search_evaluate_start(search, "start"); /* the start is the first gain */
+    bool gained = cz_search_evaluate_start(search, "start"); /* counts as the first improvement */
     for (run.seed = seed; gained; run.seed++) {
         run.evaluations = cz_search_left(search) - reserve;
         if (run.evaluations < 1)

@@ -1,4 +1,4 @@
-/* Strategies of a search: the usual one, that of a fit, one algorithm by name; catalogue
+/* Strategies of a search: the default one, that of a fit, single algorithms by name; catalogue
  * increments.
  */
 #ifndef CZ_OPTIMISE_STRATEGY_H
@@ -7,15 +7,16 @@
 #include "optimise/surface.h"
 
 /* Searches with one NLopt algorithm, from the start and again from the best design as long as that
- * gains; NULL takes the usual strategy, or that of a fit (strategy.c). The best design is moved to
- * the catalogue increments at last. Statuses of the NLopt adapter; how the search ended is in it.
+ * is an improvement; NULL selects the default strategy, or that of a fit (strategy.c). Finally the
+ * best design is moved to the catalogue increments. Statuses of the NLopt adapter; the search
+ * contains its own end status.
  */
 CZ_MUST_CHECK CzStatus cz_strategy(CzSearch *search, const char *algorithm, unsigned long seed,
                                    CzError *error);
 
 /* Moves from the best design to the best one on the catalogue increments, with at most this many
- * evaluations, until nothing gains. The surface gets that base when there are evaluations for its
- * slopes. */
+ * evaluations, until there is no improvement. The surface is moved to that base when there are
+ * evaluations for its slopes. */
 void cz_snap(CzSurface *surface, long evaluations);
 
 /* Evaluations that a strategy reserves for the catalogue increments. */

@@ -39,7 +39,7 @@ static void set_base(CzSurface *surface, long record, int point, const double *u
     memcpy(surface->c, surface->many_d + point * surface->m, (size_t)surface->m * sizeof(double));
 }
 
-/* New secants around the base. False when the search ended. */
+/* Computes new secants around the base. False when the search ended. */
 static bool refresh(CzSurface *surface, const char *phase, double secant) {
     const int n = surface->n, m = surface->m;
     for (int i = 0; i < n; i++) {
@@ -68,7 +68,7 @@ bool cz_surface_begin(CzSurface *surface, const char *phase, const double *u, do
     return refresh(surface, phase, secant);
 }
 
-/* Broyden: the plane is turned as little as possible to pass through a new point. */
+/* Broyden's update: the smallest change of the slopes with which the plane contains a new point. */
 static void correct(double *slope, int n, const double *step, double square, double change) {
     double predicted = 0;
     for (int i = 0; i < n; i++)
@@ -77,7 +77,7 @@ static void correct(double *slope, int n, const double *step, double square, dou
         slope[i] += (change - predicted) * step[i] / square;
 }
 
-/* Over shorter steps a chaotic response is scatter, which would spoil the slopes. */
+/* Over shorter steps the scatter of a chaotic response would falsify the slopes. */
 static const double shortest_step = 0.01;
 
 static void correct_all(CzSurface *surface, int point, const double *u, double *step) {
@@ -131,7 +131,7 @@ bool cz_surface_try(CzSurface *surface, const char *phase, int n_point, const do
     return cz_surface_try_exact(surface, phase, n_point, moved_to);
 }
 
-/* A plane at scaled u. */
+/* Value of a plane at scaled u. */
 static double plane_at(const CzSurface *surface, double base, const double *slope,
                        const double *u) {
     for (int i = 0; i < surface->n; i++)
@@ -206,7 +206,7 @@ static int choose_details(const CzSurface *surface, double radius, int *chosen) 
     return 0;
 }
 
-/* Searches the planes in the box lo..hi with NLopt; what it finds best is written to u. */
+/* Searches the planes in the box lo..hi with NLopt; the best design is written to u. */
 static bool search_planes(const CzSurface *surface, const Planes *planes, const double *lo,
                           const double *hi, const double *no_step, double *u) {
     const CzFunction function = {.n_variable = surface->n,
@@ -261,7 +261,7 @@ bool cz_surface_best(const CzSurface *surface, double radius, double *u) {
 
 enum {
     RADII = 3,   /* boxes tried side by side: the radius, a third, a ninth */
-    PATIENCE = 2 /* evaluations without a gain, in those of a gradient */
+    PATIENCE = 2 /* evaluations without an improvement, in multiples of those of a gradient */
 };
 
 void cz_surface_descend(CzSurface *surface, const char *phase, const double *u, long evaluations) {

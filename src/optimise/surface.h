@@ -4,7 +4,7 @@
  *
  * Slopes begin as secants of n designs side by side and are corrected by every further design
  * (Broyden's rank-one update). The search moves on the planes inside a box that grows and shrinks
- * with their success: local derivatives of a chaotic response say nothing about larger steps.
+ * with their success: local derivatives of a chaotic response do not predict larger steps.
  */
 #ifndef CZ_OPTIMISE_SURFACE_H
 #define CZ_OPTIMISE_SURFACE_H
@@ -29,13 +29,13 @@ typedef struct CzSurface {
 bool cz_surface_create(CzSurface *surface, CzSearch *search, int most);
 void cz_surface_free(CzSurface *surface);
 
-/* Takes scaled design u as base: it is evaluated, with n more for the slopes. False when the search
- * ended. */
+/* Sets scaled design u as base: it is evaluated, with n further ones for the slopes. False when the
+ * search ended. */
 bool cz_surface_begin(CzSurface *surface, const char *phase, const double *u, double secant);
 
 /* Evaluates n_point scaled designs (at most `most`), corrects the slopes by each, and moves the
- * base to the best of them when that is better than the base. False when the search ended.
- * *moved_to is the index of the new base among them, or -1. */
+ * base to the best of them when it is better. False when the search ended. *moved_to is the index
+ * of the new base among them, or -1. */
 bool cz_surface_try(CzSurface *surface, const char *phase, int n_point, const double *u,
                     int *moved_to);
 
@@ -50,8 +50,8 @@ double cz_surface_predict(const CzSurface *surface, const double *u, double *pen
  * False when it cannot be found. */
 bool cz_surface_best(const CzSurface *surface, double radius, double *u);
 
-/* Moves from scaled design u by boxes that grow and shrink, with at most so many evaluations, until
- * nothing gains. The surface stays at the last base. */
+/* Moves from scaled design u by boxes that grow and shrink, with at most `evaluations` evaluations,
+ * until there is no improvement. The surface stays at the last base. */
 void cz_surface_descend(CzSurface *surface, const char *phase, const double *u, long evaluations);
 
 #endif

@@ -1,4 +1,4 @@
-/* Keys that act in some cases only: which, and warnings of those that do nothing. */
+/* Keys that have an effect in some cases only, and warnings of keys without effect. */
 #include "problem/acts.h"
 
 #include <stdio.h>
@@ -7,10 +7,10 @@
 
 #include "base/text.h"
 
-/* ---- what a vehicle end meets ---- */
+/* ---- the partner of a vehicle end ---- */
 
 typedef struct Meeting {
-    const CzVehicle *own, *other; /* `other` NULL: nothing is met */
+    const CzVehicle *own, *other; /* `other` NULL: no partner */
     const CzEnd *end, *opposite;
     const void *record; /* that has the key */
     bool is_inner;      /* between two vehicles of one train */
@@ -88,7 +88,7 @@ static void set_other(Meeting *meeting, const CzVehicle *other) {
     meeting->opposite = meeting->end == &meeting->own->front ? &other->rear : &other->front;
 }
 
-/* Whether an end meets in some scenario what `holds` requires. */
+/* Whether an end has in some scenario a partner for which `holds` is true. */
 static bool meets(const CzInput *input, Meeting *meeting, bool (*holds)(const Meeting *)) {
     const CzTrain *train = train_of(input, meeting->own);
     if (train == NULL || holds(meeting))
@@ -117,13 +117,13 @@ static bool meets(const CzInput *input, Meeting *meeting, bool (*holds)(const Me
 
 typedef enum { EVERY, MOVING, FULL } Models; /* MOVING: full and rigid vehicles */
 
-/* What keys of a record need. One of the four is given. */
+/* Requirement of keys of a record. One of the four is given. */
 typedef struct Condition {
     CzRecordId record;
     const char *stems; /* of the keys, with blanks between */
     Models models;
-    const char *sibling; /* this key, given and not zero, */
-    int word;            /* or as this word, unless it is the first */
+    const char *sibling; /* this key must be given and not zero, */
+    int word;            /* or be this word, unless it is the first */
     bool (*meets)(const Meeting *);
     const char *reason; /* of the warning, with `meets` */
 } Condition;
@@ -163,7 +163,7 @@ bool cz_key_is_conditional(const CzKey *key) {
     return false;
 }
 
-/* The vehicle that a field belongs to; NULL for one that lies elsewhere, or that could not be read.
+/* The vehicle that has a field; NULL for a field elsewhere, or a vehicle that could not be read.
  */
 static const CzVehicle *vehicle_of(const CzProblem *problem, const void *address) {
     const uintptr_t at = (uintptr_t)address, start = (uintptr_t)problem->vehicle;
@@ -178,8 +178,8 @@ bool cz_field_acts_on_model(const CzProblem *problem, const CzKey *key, const vo
     return own == NULL || cz_key_acts_on(key, (CzVehicleModel)own->model);
 }
 
-/* Whether a sibling is the word that is needed, or given and, as a number, not zero, or one that a
- * search may change. */
+/* Whether a sibling key is the required word, or is given and, if a number, not zero or variable in
+ * a search. */
 static bool sibling_holds(const CzProblem *problem, const Condition *condition,
                           const char *record) {
     const CzOptimise *search = &problem->input.optimise;
@@ -212,8 +212,8 @@ static bool holds(const CzProblem *problem, const Condition *condition, const Cz
     return meets(&problem->input, &meeting, condition->meets);
 }
 
-/* What a field of a key lacks; NULL when it acts. */
-static const Condition *find_lack(const CzProblem *problem, const CzKey *key, const void *field) {
+/* The requirement that a field of a key does not meet; NULL when it has an effect. */
+static const Condition *find_unmet(const CzProblem *problem, const CzKey *key, const void *field) {
     for (int i = 0; i < N_CONDITION; i++)
         if (is_of(&conditions[i], key) && !holds(problem, &conditions[i], key, field))
             return &conditions[i];
@@ -221,10 +221,10 @@ static const Condition *find_lack(const CzProblem *problem, const CzKey *key, co
 }
 
 bool cz_field_acts(const CzProblem *problem, const CzKey *key, const void *field) {
-    return find_lack(problem, key, field) == NULL;
+    return find_unmet(problem, key, field) == NULL;
 }
 
-/* The word of a sibling that is needed; NULL for any. */
+/* The required word of a sibling key; NULL for any. */
 static const char *word_of(const Condition *condition) {
     if (condition->word == 0)
         return NULL;
@@ -255,52 +255,52 @@ static int compare_nodes(const void *a, const void *b) {
     return (first > second) - (first < second);
 }
 
-/* Finds what each written field lacks (n_place). What is inside of a record that does nothing goes
- * with it. */
-static void find_lacks(CzProblem *problem, const Condition **lack, const CzNode **acting) {
+/* Finds the unmet requirement of each written field (n_place). Fields inside a record without
+ * effect are not listed. */
+static void list_unmet(CzProblem *problem, const Condition **unmet, const CzNode **acting) {
     const CzPlaces *places = &problem->places;
     int n_acting = 0;
     for (int i = 0; i < places->n_place; i++) {
         const CzPlace *place = &places->place[i];
         if (place->size > 0 || place->key == NULL)
             continue;
-        lack[i] = find_lack(problem, place->key, place->address);
-        if (lack[i] == NULL && cz_key_is_conditional(place->key))
+        unmet[i] = find_unmet(problem, place->key, place->address);
+        if (unmet[i] == NULL && cz_key_is_conditional(place->key))
             acting[n_acting++] = place->node;
     }
     qsort(acting, (size_t)n_acting, sizeof(const CzNode *), compare_nodes);
     for (int i = 0; i < places->n_place; i++) {
         const CzPlace *place = &places->place[i];
-        if (lack[i] == NULL || lack[i]->models != EVERY)
+        if (unmet[i] == NULL || unmet[i]->models != EVERY)
             continue;
         if (place->node->source->is_general ||
             bsearch(&place->node, acting, (size_t)n_acting, sizeof(const CzNode *),
                     compare_nodes) != NULL)
-            lack[i] = NULL;
+            unmet[i] = NULL;
         const uintptr_t start = (uintptr_t)place->address;
-        for (int k = i - 1; k >= 0 && lack[i] != NULL && place->key->kind == CZ_KEY_CHILD &&
+        for (int k = i - 1; k >= 0 && unmet[i] != NULL && place->key->kind == CZ_KEY_CHILD &&
                             (uintptr_t)places->place[k].address - start < place->key->child->size;
              k--)
-            lack[k] = NULL;
+            unmet[k] = NULL;
     }
 }
 
-/* One warning for the fields of one record that lack the same, at the first of them. */
-static void warn(CzProblem *problem, const Condition **lack, int first) {
+/* One warning for all fields of a record with the same unmet requirement, at the first of them. */
+static void warn(CzProblem *problem, const Condition **unmet, int first) {
     const CzPlace *place = &problem->places.place[first];
     const CzVehicle *own = vehicle_of(problem, place->address);
     const char *record = (const char *)place->address - place->key->offset;
-    const Condition *condition = lack[first];
+    const Condition *condition = unmet[first];
     char list[LONGEST_LIST] = "";
     for (int i = first; i < problem->places.n_place &&
                         vehicle_of(problem, problem->places.place[i].address) == own;
          i++) {
         const CzPlace *next = &problem->places.place[i];
         const size_t n = strlen(list);
-        if (lack[i] != condition || (const char *)next->address - next->key->offset != record)
+        if (unmet[i] != condition || (const char *)next->address - next->key->offset != record)
             continue;
         snprintf(list + n, sizeof list - n, "%s%s", n > 0 ? ", " : "", next->key->stem);
-        lack[i] = NULL;
+        unmet[i] = NULL;
     }
     static const char help[] = "remove the key, or add what it acts with";
     CzMistakes *warnings = &problem->reader.warnings;
@@ -320,12 +320,12 @@ static void warn(CzProblem *problem, const Condition **lack, int first) {
 void cz_acts_check(CzProblem *problem) {
     const size_t n = (size_t)problem->places.n_place + 1;
     CzArena *arena = &problem->reader.arena;
-    const Condition **lack = cz_arena_allocate(arena, n, sizeof(const Condition *));
+    const Condition **unmet = cz_arena_allocate(arena, n, sizeof(const Condition *));
     const CzNode **acting = cz_arena_allocate(arena, n, sizeof(const CzNode *));
-    if (lack == NULL || acting == NULL)
+    if (unmet == NULL || acting == NULL)
         return;
-    find_lacks(problem, lack, acting);
+    list_unmet(problem, unmet, acting);
     for (int i = 0; i < problem->places.n_place; i++)
-        if (lack[i] != NULL)
-            warn(problem, lack, i);
+        if (unmet[i] != NULL)
+            warn(problem, unmet, i);
 }

@@ -1,4 +1,4 @@
-/* Trees to typed records, driven by the table of keys. */
+/* Converts trees to typed records by the table of keys. */
 #include "problem/bind.h"
 
 #include <math.h>
@@ -11,14 +11,14 @@
 
 enum { MOST_KEYS = 64 };
 
-/* The record at hand. */
+/* The record being read. */
 typedef struct {
     const CzRecord *record;
     const CzNode *node;
     const CzTrail *trail;
     char *memory;
-    const CzNode *seen[MOST_KEYS]; /* key as typed, NULL when not there yet (n_key) */
-    bool meant[MOST_KEYS];         /* a mistyped key stands for it (n_key) */
+    const CzNode *seen[MOST_KEYS]; /* key as typed, NULL as long as it has not been found (n_key) */
+    bool meant[MOST_KEYS];         /* a mistyped key was found in its place (n_key) */
 } Record;
 
 static void bind_record(CzBinder binder, const CzRecord *of, const CzNode *node,
@@ -51,7 +51,7 @@ void cz_bind_absent(const CzRecord *record, void *record_memory) {
         fill_absent(&record->key[i], record_memory);
 }
 
-/* ---- keys that are not what they should be ---- */
+/* ---- wrong keys ---- */
 
 /* The nearest key of a record. */
 static const CzKey *nearest_key(const CzRecord *record, const char *typed,
@@ -72,7 +72,7 @@ static const CzKey *nearest_key(const CzRecord *record, const char *typed,
     return nearest;
 }
 
-/* The longest stem of a number that a key begins with, when only its unit is amiss. */
+/* The longest stem of a number with which a key begins, when only its unit is wrong. */
 static const CzKey *key_of_stem(const CzRecord *record, const char *typed) {
     const CzKey *best = NULL;
     for (int i = 0; i < record->n_key; i++) {
@@ -95,7 +95,7 @@ static const CzReuseKey *find_reuse_key(const char *typed) {
     return NULL;
 }
 
-/* Reports a number whose key has no unit, or another than its own. */
+/* Reports a number whose key has no unit, or a wrong one. */
 static void report_unit(CzBinder binder, const Record *record, const CzNode *typed,
                         const CzKey *key, const CzTrail *trail) {
     char spellings[200], wrong[80] = " takes no unit";
@@ -110,7 +110,7 @@ static void report_unit(CzBinder binder, const Record *record, const CzNode *typ
                typed->text, record->record->name, wrong, spellings);
 }
 
-/* Offers the keys that reuse and may be in a record. */
+/* Suggests the keys for reuse that are allowed in a record. */
 static void suggest_reuse(CzSuggestion *suggestion, const CzRecord *record, const char *typed) {
     for (int i = 0; i < cz_n_reuse_key; i++)
         if (cz_reuse_keys[i].record[0] == '\0' ||
@@ -118,7 +118,7 @@ static void suggest_reuse(CzSuggestion *suggestion, const CzRecord *record, cons
             cz_suggest(suggestion, typed, cz_reuse_keys[i].key);
 }
 
-/* Says of which inner record a key is, when it is one level too far out. */
+/* Names the inner record to which a key belongs, when it is one level too far out. */
 static void help_inwards(char help[160], const CzRecord *record, const char *typed) {
     for (int i = 0; i < record->n_key && help[0] == '\0'; i++) {
         const CzKey *key = &record->key[i];
@@ -131,7 +131,7 @@ static void help_inwards(char help[160], const CzRecord *record, const char *typ
     }
 }
 
-/* Reports a key that the record does not have; the key that was meant, when that is plain. */
+/* Reports a key that the record does not have; returns the intended key when that is clear. */
 static const CzKey *report_unknown(CzBinder binder, const Record *record, const CzNode *typed,
                                    const CzTrail *trail) {
     char help[160] = "";
@@ -193,7 +193,7 @@ static void add_place(CzBinder binder, const void *address, const CzEntry *entry
                                            .unit = unit});
 }
 
-/* One word of a set; a mistyped word is taken for the one that was meant. */
+/* One word of a set; a mistyped word is read as the intended one. */
 static bool bind_choice(CzValue value, const CzWordSet *set, int *choice) {
     char words[160] = "";
     size_t n = 0;
@@ -215,7 +215,8 @@ static bool bind_choice(CzValue value, const CzWordSet *set, int *choice) {
     return false;
 }
 
-/* The items of a list of records, which the record has by pointer, of a list of stages, by value.
+/* Reads the items of a list of records, which are stored by pointer, or of a list of stages, which
+ * are stored by value.
  */
 static void bind_list(CzBinder binder, const Record *record, const CzKey *key, const CzEntry *entry,
                       const CzTrail *trail) {
@@ -238,7 +239,7 @@ static void bind_list(CzBinder binder, const Record *record, const CzKey *key, c
     char *items = record->memory + key->offset;
     if (!is_stages) {
         char **pointer = (char **)(void *)items;
-        if (*pointer == NULL) /* trains and vehicles have their room already */
+        if (*pointer == NULL) /* trains and vehicles have memory already */
             *pointer =
                 cz_arena_allocate(&binder.reader->arena, (size_t)list->n_entry, key->child->size);
         items = *pointer;
@@ -285,7 +286,7 @@ static void bind_value(CzBinder binder, const Record *record, const CzKey *key, 
         break;
     case CZ_KEY_CHOICE:
         if (!bind_choice(value, key->words, field))
-            reader->has_holes = true; /* another word might have requested less */
+            reader->has_holes = true; /* the intended word might require fewer keys */
         break;
     case CZ_KEY_FLAG:
         cz_value_flag(value, field);
@@ -313,8 +314,9 @@ static void bind_value(CzBinder binder, const Record *record, const CzKey *key, 
     add_place(binder, field, entry, trail, key, unit);
 }
 
-/* The word under a mistyped key holds as if the key were right, so that nothing else is blamed. */
-static void take_meant_word(const Record *record, const CzKey *key, const CzNode *value) {
+/* Uses the word under a mistyped key as if the key were right, which avoids consequential
+ * mistakes. */
+static void use_intended_word(const Record *record, const CzKey *key, const CzNode *value) {
     const int word = value->kind == CZ_NODE_TEXT ? cz_word_nearest(key->words, value->text) : -1;
     if (word >= 0)
         *(int *)(void *)(record->memory + key->offset) = word;
@@ -333,10 +335,10 @@ static void bind_entry(CzBinder binder, Record *record, const CzEntry *entry) {
             return;
         record->meant[key - record->record->key] = true;
         binder.reader->has_holes |= key->kind >= CZ_KEY_CHILD;
-        if (key->kind == CZ_KEY_NUMBER) /* what was not read breaks no rule */
+        if (key->kind == CZ_KEY_NUMBER) /* an unread value violates no rule */
             *(double *)(void *)(record->memory + key->offset) = NAN;
         if (key->kind == CZ_KEY_CHOICE)
-            take_meant_word(record, key, entry->value);
+            use_intended_word(record, key, entry->value);
         add_place(binder, record->memory + key->offset, entry, trail, key, NULL);
         return;
     }

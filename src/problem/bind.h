@@ -1,4 +1,4 @@
-/* Trees to typed records, driven by the table of keys. */
+/* Converts trees to typed records by the table of keys. */
 #ifndef CZ_PROBLEM_BIND_H
 #define CZ_PROBLEM_BIND_H
 
@@ -7,21 +7,21 @@
 #include "problem/places.h"
 #include "tree/parts.h"
 
-/* What records are read with. */
+/* Context for reading records. */
 typedef struct CzBinder {
     CzReader *reader;
-    CzPlaces *places; /* get the place of every record and value */
+    CzPlaces *places; /* receives the place of every record and value */
     const CzReadCurve **curves;
     const CzTree *tree;
     bool is_full;    /* inside a full vehicle */
-    bool is_partial; /* inside a record whose part is not there */
+    bool is_partial; /* inside a record whose part is missing */
 } CzBinder;
 
 /* Reads a mapping as a record. `record_memory` was zeroed. */
 void cz_bind_record(CzBinder binder, const CzRecord *record, const CzNode *node,
                     const CzTrail *trail, void *record_memory);
 
-/* Fills a record that the file does not have. */
+/* Fills a record that is not in the file. */
 void cz_bind_absent(const CzRecord *record, void *record_memory);
 
 #endif

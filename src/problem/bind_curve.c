@@ -12,8 +12,8 @@
 #include "problem/trace.h"
 #include "tree/load.h"
 
-#define JUMP 0.01         /* of the energy that points at one stroke may be worth (ours) */
-#define WITHOUT_FORCE 0.2 /* of the mean force: a curve that begins below begins without (ours) */
+#define JUMP 0.01 /* largest energy of points at one stroke, as a share of the total (ours) */
+#define WITHOUT_FORCE 0.2 /* of the mean force: a smaller first force counts as zero (ours) */
 
 /* A curve while it is read. */
 typedef struct Curve {
@@ -21,7 +21,7 @@ typedef struct Curve {
     const CzKey *key; /* of the curve */
     const CzNode *node;
     const CzTrail *trail;
-    CzTrace points; /* [SI]; those of the problem file itself have no lines */
+    CzTrace points; /* [SI]; those in the problem file itself have no lines */
 } Curve;
 
 /* Reports a mistake about the curve; false. */
@@ -60,7 +60,7 @@ static const CzNode *find_columns(const Curve *curve) {
     return is_pair ? columns->value : NULL;
 }
 
-/* ---- points here ---- */
+/* ---- points in the problem file ---- */
 
 /* One column: its values are x or y of the curve. */
 typedef struct Column {
@@ -93,7 +93,7 @@ static bool read_columns(const Curve *curve, Column column[2]) {
     return find_unit(curve, titles->entry[1].value, &column[1]) && has_x;
 }
 
-static bool take_number(const Curve *curve, const Column *column, const CzNode *value,
+static bool read_number(const Curve *curve, const Column *column, const CzNode *value,
                         double *number) {
     char name[64];
     snprintf(name, sizeof name, "%s_%s", column->stem, column->unit->suffix);
@@ -101,16 +101,16 @@ static bool take_number(const Curve *curve, const Column *column, const CzNode *
                            0, column->dimension == CZ_DIMENSION_LENGTH ? 20 : 1e9, number);
 }
 
-/* Takes one point; false when it is none. */
-static bool take_point(Curve *curve, const Column column[2], const CzNode *point) {
+/* Reads one point; false when it is not a point. */
+static bool read_point(Curve *curve, const Column column[2], const CzNode *point) {
     CzTrace *points = &curve->points;
     const int at = points->n;
     if (point->kind != CZ_NODE_LIST || point->n_entry != 2)
         return refuse(curve, point, "a point has two numbers, [%s, %s]", column[0].stem,
                       column[1].stem);
     const CzNode *x = point->entry[0].value;
-    const bool has_x = take_number(curve, &column[0], x, &points->x[at]);
-    if (!take_number(curve, &column[1], point->entry[1].value, &points->f[at]) || !has_x)
+    const bool has_x = read_number(curve, &column[0], x, &points->x[at]);
+    if (!read_number(curve, &column[1], point->entry[1].value, &points->f[at]) || !has_x)
         return false;
     if (at > 0 && points->x[at] <= points->x[at - 1])
         return refuse(
@@ -135,14 +135,15 @@ static bool read_points(Curve *curve) {
     curve->points.f = cz_arena_numbers(&curve->reader->arena, n);
     bool all_good = curve->points.x != NULL && curve->points.f != NULL;
     for (size_t i = 0; curve->points.f != NULL && curve->points.x != NULL && i < n; i++)
-        all_good &= take_point(curve, column, list->value->entry[i].value);
+        all_good &= read_point(curve, column, list->value->entry[i].value);
     return all_good;
 }
 
 /* ---- points in a file ---- */
 
-/* Reads a number under a stem in one of the units of a dimension; `*number` stays without one. */
-static bool take_setting(const Curve *curve, const char *stem, CzDimension dimension, double lowest,
+/* Reads a number under a stem in one of the units of a dimension; `*number` is unchanged when it is
+ * not given. */
+static bool read_setting(const Curve *curve, const char *stem, CzDimension dimension, double lowest,
                          double *number) {
     const size_t n = strlen(stem);
     for (int i = 0; i < curve->node->n_entry; i++) {
@@ -161,8 +162,8 @@ static bool take_setting(const Curve *curve, const char *stem, CzDimension dimen
     return true;
 }
 
-/* Reads a word of a few that may be absent: its number, or -1. */
-static bool take_word(const Curve *curve, const char *name, int n, const char *const *words,
+/* Reads one of a few words: its number, or -1 when it is absent. */
+static bool read_word(const Curve *curve, const char *name, int n, const char *const *words,
                       int *word) {
     char list[80] = "";
     *word = find_word(curve, name, n, words);
@@ -173,13 +174,13 @@ static bool take_word(const Curve *curve, const char *name, int n, const char *c
                                  curve->key->stem, list);
 }
 
-static bool take_zero(const Curve *curve, CzTraceShape *shape) {
+static bool read_zero(const Curve *curve, CzTraceShape *shape) {
     static const char *const words[] = {"start", "contact"};
     static const CzTraceZero zeros[] = {CZ_ZERO_AT_START, CZ_ZERO_AT_CONTACT};
     int word;
     double at = NAN;
-    if (!take_word(curve, "zero", 2, words, &word) ||
-        !take_setting(curve, "zero", CZ_DIMENSION_LENGTH, -100, &at))
+    if (!read_word(curve, "zero", 2, words, &word) ||
+        !read_setting(curve, "zero", CZ_DIMENSION_LENGTH, -100, &at))
         return false;
     if (word >= 0)
         shape->zero = zeros[word];
@@ -190,30 +191,30 @@ static bool take_zero(const Curve *curve, CzTraceShape *shape) {
     return true;
 }
 
-/* Signs, zero and part of the curve. */
-static bool take_shape(const Curve *curve, CzTraceShape *shape) {
+/* Reads signs, zero and part of the curve. */
+static bool read_shape(const Curve *curve, CzTraceShape *shape) {
     static const char *const words[] = {"stroke", "force", "both"};
     int flip;
     *shape = cz_trace_shape_default();
     shape->flip_help = "flip: stroke, flip: force or flip: both beside the file changes signs";
     shape->zero_help = "zero: start beside the file counts from the first point, zero_mm from a "
                        "stroke of the file";
-    if (!take_word(curve, "flip", 3, words, &flip))
+    if (!read_word(curve, "flip", 3, words, &flip))
         return false;
     shape->flips[0] = flip == 0 || flip == 2;
     shape->flips[1] = flip == 1 || flip == 2;
-    return take_zero(curve, shape) &&
-           take_setting(curve, "scale", CZ_DIMENSION_NONE, 1e-6, &shape->scale) &&
-           take_setting(curve, "from", CZ_DIMENSION_LENGTH, -100, &shape->from) &&
-           take_setting(curve, "to", CZ_DIMENSION_LENGTH, -100, &shape->to);
+    return read_zero(curve, shape) &&
+           read_setting(curve, "scale", CZ_DIMENSION_NONE, 1e-6, &shape->scale) &&
+           read_setting(curve, "from", CZ_DIMENSION_LENGTH, -100, &shape->from) &&
+           read_setting(curve, "to", CZ_DIMENSION_LENGTH, -100, &shape->to);
 }
 
-/* Which columns, and the decimal sign. */
-static bool take_request(const Curve *curve, CzCurveRequest *request) {
+/* Reads the columns and the decimal sign. */
+static bool read_request(const Curve *curve, CzCurveRequest *request) {
     static const char *const decimals[] = {".", ","};
     const CzKey *key = curve->key;
     int decimal;
-    const bool has_decimal = take_word(curve, "decimal", 2, decimals, &decimal);
+    const bool has_decimal = read_word(curve, "decimal", 2, decimals, &decimal);
     *request = (CzCurveRequest){
         .column = {{.name = key->x, .dimension = key->dimension, .largest = CZ_LARGEST_STROKE},
                    {.name = key->y, .dimension = key->y_dimension, .largest = CZ_LARGEST_FORCE}},
@@ -237,13 +238,13 @@ static double area_of(const CzTrace *trace) {
     return cz_work(trace->x, trace->f, 0, trace->n - 1);
 }
 
-/* Where the force jumps most at one stroke. */
+/* The largest jump of the force at one stroke. */
 typedef struct Jump {
     double x, from, to;
     int line;
 } Jump;
 
-/* One point for all at one stroke: at 0 the last one, elsewhere their mean. */
+/* Replaces points at one stroke by one point: at 0 the last one, elsewhere their mean. */
 static Jump merge_points(CzTrace *trace) {
     Jump jump = {.line = trace->line[0]};
     int n = 0;
@@ -262,7 +263,7 @@ static Jump merge_points(CzTrace *trace) {
     return jump;
 }
 
-/* The loading alone, its strokes rising from 0. A jump of the force cannot be kept. */
+/* Keeps the loading alone, with strokes rising from 0. A jump of the force cannot be kept. */
 static bool keep_loading(Curve *curve, const CzSource *source) {
     CzReader *reader = curve->reader;
     CzTrace *trace = &curve->points;
@@ -301,7 +302,7 @@ static bool read_file(Curve *curve, const CzNode *named) {
     CzTraceShape shape;
     CzCurveRequest request;
     CzCurvePoints points;
-    if (path == NULL || !take_shape(curve, &shape) || !take_request(curve, &request) ||
+    if (path == NULL || !read_shape(curve, &shape) || !read_request(curve, &request) ||
         !cz_curve_points_read(&reader->sources, &reader->mistakes, path, named, &request, &points))
         return false;
     CzTrace *trace = &curve->points;
@@ -328,7 +329,7 @@ static bool read_basis(const Curve *curve, CzTable *table) {
                   curve->key->stem);
 }
 
-/* What the strokes of the curve are. */
+/* Reads whether the strokes of the curve are total or plastic. */
 static bool read_strokes(const Curve *curve, CzTable *table) {
     static const char *const words[] = {"plastic", "total"};
     const int word = find_word(curve, "strokes", 2, words);
@@ -339,7 +340,7 @@ static bool read_strokes(const Curve *curve, CzTable *table) {
                                 "'strokes' of '%s' must be plastic or total", curve->key->stem);
 }
 
-/* Keys of a curve by points here, and of one in a file. */
+/* Keys of a curve by points in the problem file, and of one in a file. */
 static void check_keys(const Curve *curve, bool has_file) {
     for (int i = 0; i < curve->node->n_entry; i++) {
         const CzNode *key = curve->node->entry[i].key;
@@ -370,7 +371,7 @@ static void reduce(Curve *curve, CzTable *table) {
             "to %s kN",
             curve->key->stem, n_before, points->n, CZ_SHORT(change.area / 1e3),
             CZ_SHORT(change.largest_difference <= 1e-12 * largest
-                         ? 0.0 /* what rounding leaves of it */
+                         ? 0.0 /* zero but for rounding */
                          : change.largest_difference / 1e3));
     table->n_point = points->n;
     memcpy(table->x, points->x, (size_t)points->n * sizeof table->x[0]);

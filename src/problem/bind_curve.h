@@ -1,6 +1,6 @@
-/* Curves of devices: by points, {columns, points, basis}, or in a file of their own, {file, basis,
- * ...} with what is needed to find columns, part and signs in it. Of a file the loading is taken,
- * with strokes that rise from 0.
+/* Curves of devices: by points, {columns, points, basis}, or in a separate file, {file, basis, ...}
+ * with keys for its columns, part and signs. From a file the loading is read, with strokes that
+ * rise from 0.
  *
  * A curve of more points than a table holds loses the points that matter least (reduce_curve.h).
  */
@@ -10,8 +10,8 @@
 #include "problem/input.h"
 #include "tree/reader.h"
 
-/* Curves that were read, by their nodes: a curve of a part is read once for all records that use
- * the part, and not again when the problem is read again, even if its file has changed. */
+/* Curves that were read, by node: a curve of a part is read once for all records that use the part,
+ * and not again when the problem is reread, even if its file has changed. */
 typedef struct CzReadCurve {
     const CzNode *node;
     const CzKey *key;
@@ -19,7 +19,7 @@ typedef struct CzReadCurve {
     const struct CzReadCurve *before; /* NULL for the first */
 } CzReadCurve;
 
-/* Reads a curve, unless it is among those that were read: then a copy. It is added to them. */
+/* Reads a curve and adds it to the list; copies it when it is in the list already. */
 void cz_bind_curve(CzReader *reader, const CzReadCurve **curves, const CzKey *key,
                    const CzNode *node, const CzTrail *trail, CzTable *table);
 

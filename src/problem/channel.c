@@ -36,7 +36,7 @@ int cz_first_place(CzChannelAt at, int index) {
     return index * n_place[at];
 }
 
-/* What is written in place of a part of a pattern in braces, which begins with that letter. */
+/* Text for a placeholder of a pattern, given by its first letter in the braces. */
 static const char *word_for(char part, const CzChannelInfo *info, int place, const char *name) {
     static const char *const wheelsets[] = {"1", "2", "3", "4"};
     static const char *const ends[] = {"rear", "front"};
@@ -60,15 +60,15 @@ const char *cz_channel_name(const CzChannelInfo *info, int place, const char *na
     return text;
 }
 
-/* A text that is searched for, and what was found. */
+/* A text to search for, and the result. */
 typedef struct Search {
     const char *text;
     CzColumn *column;
-    bool is_asked; /* for the nearest name */
+    bool is_asked; /* search the nearest name */
     CzSuggestion suggestion;
 } Search;
 
-/* Whether one of the places of a vehicle, an interface or the run has that name. */
+/* Whether a channel at one of the places has that name. */
 static bool try_places(Search *search, CzChannel channel, int index, const char *name) {
     const CzChannelInfo *info = &channels[channel];
     for (int k = 0; k < n_place[info->at]; k++) {

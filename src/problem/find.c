@@ -1,5 +1,5 @@
-/* Places that a path names, found by putting stand-in values under the path and reading again: so a
- * path names exactly what setting it would change. */
+/* Finds the places that a path names by setting stand-in values at the path and reading again, so
+ * that a path names exactly the values that setting it changes. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "problem/reading.h"
 
-/* First mistake that the path itself made, or NULL. */
+/* First mistake caused by the path itself, or NULL. */
 static const CzError *first_mistake(const CzReader *reader, const CzNode *place) {
     for (int i = 0; i < reader->mistakes.n_mistake; i++)
         if (strcmp(reader->mistakes.mistake[i]->error.file, place->source->name) == 0)
@@ -85,7 +85,7 @@ static CzStatus collect(const CzProblem *problem, const CzProblem *trial, const 
     return CZ_OK;
 }
 
-/* Reads the problem with stand-ins as the last of its settings; they take their turn. */
+/* Reads the problem with stand-ins as its last settings, applied in the usual order. */
 static CzStatus find(const CzProblem *problem, CzProblem *trial, CzSetting *stand_ins,
                      const char *path, CzTargets *found, CzError *error) {
     CzReader *reader = &trial->reader;

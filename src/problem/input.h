@@ -23,7 +23,7 @@ enum {
 /* Basis of a measured curve: a dynamic one already contains the rate effect. */
 typedef enum CzBasis { CZ_BASIS_STATIC, CZ_BASIS_DYNAMIC } CzBasis;
 
-/* What the strokes of a curve are: the permanent shortening alone, or with the elastic one. */
+/* Meaning of the strokes of a curve: permanent shortening alone, or including the elastic one. */
 typedef enum CzStrokes { CZ_STROKES_UNSAID, CZ_STROKES_PLASTIC, CZ_STROKES_TOTAL } CzStrokes;
 
 /* Curve given by points; x increases. */
@@ -32,7 +32,7 @@ typedef struct CzTable {
     int n_point;
     CzBasis basis;
     CzStrokes strokes;
-    bool converted;                /* its strokes were made with the stiffnesses of the device */
+    bool converted; /* its strokes were converted with the stiffnesses of the device */
     double x[CZ_MAX_CURVE_POINTS]; /* [SI] */
     double y[CZ_MAX_CURVE_POINTS]; /* [SI] */
 } CzTable;

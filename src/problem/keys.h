@@ -27,7 +27,7 @@ extern const CzRecord cz_records[CZ_N_RECORD];
 /* ---- keys that reuse (reuse.def) ---- */
 
 typedef struct CzReuseKey {
-    const char *record; /* name of the record it belongs to; "" for any */
+    const char *record; /* name of its record; "" for any */
     const char *key;
     const char *schema; /* JSON schema of its value, without the braces */
     const char *doc;

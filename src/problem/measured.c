@@ -8,7 +8,7 @@
 #include "text/curve_file.h"
 #include "tree/load.h"
 
-/* The column of the values, wanted in the unit at the end of the channel's name. */
+/* The requested column of values, in the unit at the end of the channel's name. */
 static CzCurveColumn column_of(const CzMatch *match) {
     const CzUnit *unit =
         match->channel != NULL ? cz_curve_unit_of_title(match->channel, NULL) : NULL;
@@ -76,7 +76,7 @@ static void read_measured(CzProblem *problem, const CzMatch *match, CzMeasured *
             .n_point = points.n, .time = points.x, .value = points.y, .source = points.source};
 }
 
-/* The first match of a file gives it its number. */
+/* Numbers the files in the order of their first matches. */
 static void number_files(CzProblem *problem) {
     int n = 0;
     for (int i = 0; i < problem->input.optimise.n_match; i++) {

@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-/* Outer before inner, records before fields; of several places of one field the first is first. */
+/* Outer before inner, records before fields; several places of one field stay in their order. */
 static int compare_places(const void *a, const void *b) {
     const CzPlaced *first = a, *second = b;
     if (first->start != second->start)
@@ -53,7 +53,7 @@ const CzPlace *cz_places_find(const CzPlaces *places, const void *field) {
     const uintptr_t at = (uintptr_t)field;
     const CzPlaced *placed = places->placed;
     int low = 0, high = places->n_placed;
-    while (low < high) { /* the first that begins behind the address, or at it and is a field */
+    while (low < high) { /* first place after the address, or field at it */
         const int middle = low + (high - low) / 2;
         const bool is_before =
             placed[middle].start < at || (placed[middle].start == at && placed[middle].end > at);
@@ -62,7 +62,7 @@ const CzPlace *cz_places_find(const CzPlaces *places, const void *field) {
     }
     if (low < places->n_placed && placed[low].start == at)
         return &places->place[placed[low].place];
-    int i = low - 1; /* else the innermost record about it */
+    int i = low - 1; /* else the innermost record around it */
     while (i >= 0 && placed[i].end <= at)
         i = placed[i].around;
     return i >= 0 ? &places->place[placed[i].place] : NULL;

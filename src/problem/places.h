@@ -26,7 +26,7 @@ typedef struct CzPlaced {
 
 /* Zero-initialise it and set the arena. */
 typedef struct CzPlaces {
-    CzArena *arena; /* its out_of_memory shows when memory is short */
+    CzArena *arena; /* its out_of_memory is set when memory is short */
     int n_place, n_allocated;
     CzPlace *place;
     int n_placed; /* by address, as of the last cz_places_sort */
@@ -35,7 +35,7 @@ typedef struct CzPlaces {
 
 void cz_places_add(CzPlaces *places, CzPlace place);
 
-/* Lets cz_places_find find what was added; reading a record does so at its end. */
+/* Sorts added places for cz_places_find; reading a record does so at its end. */
 void cz_places_sort(CzPlaces *places);
 
 void cz_places_free(CzPlaces *places);

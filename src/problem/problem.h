@@ -1,4 +1,4 @@
-/* What the model and the evaluator see of a problem: typed records, places in the file, design
+/* A problem as the model and the evaluator use it: typed records, places in the file, design
  * targets. */
 #ifndef CZ_PROBLEM_PROBLEM_H
 #define CZ_PROBLEM_PROBLEM_H
@@ -28,7 +28,7 @@ static inline const CzTrain *cz_input_train(const CzInput *input, const CzScenar
     return NULL;
 }
 
-/* The track that makes a difference: rigid where no vehicle has wheels. */
+/* The effective track: rigid where no vehicle has wheels. */
 CzTrack cz_problem_track(const CzProblem *problem);
 /* Its word in a file. */
 const char *cz_track_word(CzTrack track);
@@ -37,9 +37,8 @@ const char *cz_track_word(CzTrack track);
  * when nothing was. */
 const struct CzSource *cz_problem_first_source(const CzProblem *problem);
 
-/* Name of a file as results report it: one that was given from the root of the file system by its
- * place beside the problem file or in the share folder, so that results do not depend on the place
- * of the tree. Borrowed. */
+/* Name of a file as results report it: an absolute path is given relative to the problem file or
+ * the share folder, so that results do not depend on the folder of installation. Borrowed. */
 const char *cz_problem_told_name(const CzProblem *problem, const char *name);
 
 /* Fills file, line, column of the place where a field of the input was written (the innermost
@@ -58,13 +57,13 @@ CzStatus cz_problem_fail(const CzProblem *problem, const void *field, CzError *e
 /* The folder that was searched after the file's own; NULL for none. Borrowed. */
 const char *cz_problem_share_folder(const CzProblem *problem);
 
-/* Judges the vehicles of a candidate design, one array like the problem's own, by the rules that
- * the reader holds a file's vehicles to: so a design that passes can be written down and read.
- * Statuses: CZ_OK, CZ_STATUS_INPUT with the first broken rule, CZ_STATUS_NO_MEMORY. */
+/* Checks the vehicles of a candidate design, one array like the problem's own, by the rules for the
+ * vehicles of a file, so that a design that passes can be written to a file and read. Statuses:
+ * CZ_OK, CZ_STATUS_INPUT with the first broken rule, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_problem_check_vehicles(const CzProblem *problem,
                                                  const CzVehicle *vehicles, CzError *error);
 
-/* Rules between values that a design variable can break. */
+/* Rules between values that a design variable can violate. */
 typedef enum CzValueRule {
 #define CZ_VALUE_RULE(constant, name, doc) CZ_VALUE_RULE_##constant,
 #include "problem/value_rules.def"
@@ -72,9 +71,9 @@ typedef enum CzValueRule {
     CZ_N_VALUE_RULE
 } CzValueRule;
 
-/* How near an end of a candidate's vehicle comes to breaking each rule: the number that is limited
- * over what it may be, above 1 when it is broken, NaN where the rule has no subject. `vehicle` is
- * one of `vehicles`, `end` one of its ends; `ratio` is (CZ_N_VALUE_RULE). */
+/* Utilisation of each rule at an end of a candidate's vehicle: the limited number over its limit,
+ * above 1 when the rule is violated, NaN where it does not apply. `vehicle` is one of `vehicles`,
+ * `end` one of its ends; `ratio` is (CZ_N_VALUE_RULE). */
 void cz_problem_rule_ratios(const CzProblem *problem, const CzVehicle *vehicles,
                             const CzVehicle *vehicle, const CzEnd *end, double *ratio);
 
@@ -89,11 +88,11 @@ typedef struct CzTarget {
     int match;                /* which match of a [*] this belongs to, from 0 */
     bool may_vary;            /* the key is one of the kinds an optimiser may change */
     bool may_fit;             /* or one that may be fitted to measurements */
-    char place[CZ_PATH_ROOM]; /* path of this match without any *, as `set:` takes it; the targets
+    char place[CZ_PATH_ROOM]; /* path of this match without any *, as in `set:`; the targets
                         of one match share it */
 } CzTarget;
 
-/* What the paths of a variable name, path by path. */
+/* The targets of a variable's paths, path by path. */
 typedef struct CzTargets {
     int n;
     CzTarget *target; /* (n) */
@@ -106,17 +105,17 @@ const CzTargets *cz_problem_targets(const CzProblem *problem, int variable);
 
 /* Adds all numbers that setting a path would change, ordered by match. Through `parts.NAME` those
  * of every vehicle that uses the part and does not override the key; through a vehicle of a train
- * those of this vehicle and of all that repeat or copy it (they have no values of their own);
- * beyond a * the items that have the record. The array of targets is allocated with malloc and
- * freed by the caller. Statuses: CZ_OK, CZ_STATUS_INPUT with a did-you-mean, CZ_STATUS_NO_MEMORY.
+ * those of this vehicle and of all that repeat or copy it (they have no values of their own); after
+ * a * the items that have the record. The array of targets is allocated with malloc and freed by
+ * the caller. Statuses: CZ_OK, CZ_STATUS_INPUT with a did-you-mean, CZ_STATUS_NO_MEMORY.
  */
 CZ_MUST_CHECK CzStatus cz_problem_find(const CzProblem *problem, const char *path,
                                        CzTargets *targets, CzError *error);
 
-/* The problem once more with further settings "path" = "value", judged by every rule but those on
- * limits and variables. Shares the problem's tree, so it must not outlive it; freed by the caller.
- * May be called from several threads. Statuses: CZ_OK, CZ_STATUS_INPUT with the first mistake,
- * CZ_STATUS_NO_MEMORY. */
+/* Reads the problem again with further settings "path" = "value", and checks all rules except those
+ * on limits and variables. Shares the problem's tree, so it must not outlive it; freed by the
+ * caller. May be called from several threads. Statuses: CZ_OK, CZ_STATUS_INPUT with the first
+ * mistake, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_problem_read_again(const CzProblem *problem, int n_more,
                                              const char *const *path, const char *const *value,
                                              CzProblem **again, CzError *error);

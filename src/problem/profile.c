@@ -1,4 +1,4 @@
-/* Reading profiles of limits. */
+/* Reads profiles of limits. */
 #include "problem/reading.h"
 
 #include <dirent.h>
@@ -12,7 +12,7 @@
 
 enum { LONGEST_NAME = 96 };
 
-/* Offers the names of all profiles in a folder. */
+/* Suggests the names of all profiles in a folder. */
 static void suggest_profiles(CzSuggestion *suggestion, const char *folder, const char *name) {
     char path[512], known[LONGEST_NAME];
     snprintf(path, sizeof path, "%s/profiles", folder);

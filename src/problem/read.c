@@ -1,4 +1,4 @@
-/* Reading a problem: the sequence of steps, and the public functions. */
+/* Reads a problem: the sequence of steps, and the public functions. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -20,7 +20,7 @@ CzProblemOptions cz_problem_options_default(void) {
 
 /* ---- reading ---- */
 
-/* Begins a problem that messages call `file`; `options` may be NULL. */
+/* Begins a problem whose name in messages is `file`; `options` may be NULL. */
 static CzStatus begin(const CzProblemOptions *options, const char *file, CzProblem **problem,
                       CzError *error) {
     CzProblem *begun = cz_problem_create(CZ_SHARE_FOLDER);
@@ -64,7 +64,7 @@ static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOpti
     cz_acts_check(problem);
 }
 
-/* Sorts what was found and reports the first mistake. */
+/* Sorts the mistakes and reports the first one. */
 static CzStatus finish(CzProblem *problem, CzError *error) {
     CzReader *reader = &problem->reader;
     snprintf(problem->hash, sizeof problem->hash, "%016" PRIx64, reader->sources.hash);
@@ -167,7 +167,7 @@ CzStatus cz_problem_find_scenario(const CzProblem *problem, const char *name, in
     return status;
 }
 
-/* The rest of a path behind a folder; NULL when it is not in it. */
+/* The rest of a path after a folder; NULL when it is not in the folder. */
 static const char *path_in(const char *folder, const char *path) {
     const size_t n = folder != NULL ? strlen(folder) : 0;
     return n > 0 && strncmp(path, folder, n) == 0 && path[n] == '/' ? path + n + 1 : NULL;

@@ -1,4 +1,4 @@
-/* A problem from the inside, and the step from its tree to its records. */
+/* Members of a problem, and the step from its tree to its records. */
 #ifndef CZ_PROBLEM_READING_H
 #define CZ_PROBLEM_READING_H
 
@@ -7,8 +7,8 @@
 #include "problem/problem.h"
 #include "tree/settings.h"
 
-/* In the first line of a resolved problem: all is written out, and warnings of what has no effect
- * belong to the files that it was made of. */
+/* In the first line of a resolved problem: everything is written out; keys without effect are not
+ * reported, because that concerns its original files. */
 #define CZ_RESOLVED_MARK " resolved: parts, copies and defaults filled in"
 
 struct CzProblem {
@@ -31,25 +31,25 @@ struct CzProblem {
 /* A problem without anything in it; freed by cz_problem_free. NULL without memory. */
 CzProblem *cz_problem_create(const char *share_folder);
 
-/* One that is to be read again from the tree of another, which it must not outlive, with `*more`
- * for n_more settings behind its own. NULL without memory. */
+/* A problem to be reread from the tree of another, which it must not outlive, with space `*more`
+ * for n_more settings after its own. NULL without memory. */
 CzProblem *cz_problem_create_again(const CzProblem *problem, int n_more, CzSetting **more);
 
-/* What the records of a tree are read with. */
+/* Context for reading the records of a tree. */
 CzBinder cz_problem_binder(CzProblem *problem, const CzTree *tree);
 
-/* Puts settings in and reads the input of a tree. */
+/* Applies the settings and reads the input of a tree. */
 void cz_problem_bind(CzProblem *problem, const CzTree *tree);
 
 /* Reads the profile that the problem names, with the limits of its category (profile.c). */
 void cz_profile_read(CzProblem *problem);
 
 /* Reads the time histories that the problem's matches name, as curve files are (measured.c). Times
- * rise from line to line, so what `run` writes as channels.csv can be read as well. A value without
- * a unit is in that of its channel. */
+ * must rise from line to line, as in the channels.csv of `run`, which can be read as well. A value
+ * without a unit is in that of its channel. */
 void cz_measured_read(CzProblem *problem);
 
-/* The scenario of a name, or the first of a family of that name; -1 when there is none, and the
+/* The scenario of a name, or the first of a family of that name; -1 when there is none, with the
  * nearest word. */
 int cz_input_find_scenario(const CzInput *input, const char *name, CzSuggestion *nearest);
 

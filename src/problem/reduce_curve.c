@@ -14,11 +14,12 @@ static double triangle(const double *x, const double *y, int a, int b, int c) {
     return 0.5 * fabs((x[b] - x[a]) * (y[c] - y[a]) - (x[c] - x[a]) * (y[b] - y[a]));
 }
 
-/* Points that may go, in a heap whose root matters least; of equal ones the first goes first. */
+/* Removable points in a heap whose root changes the curve least; of equal ones the first is removed
+ * first. */
 typedef struct Heap {
     const double *x, *y;
     double *area;        /* of the triangle with the neighbours (n_point) */
-    int *before, *after; /* neighbours that are still there (n_point) */
+    int *before, *after; /* neighbours that remain (n_point) */
     int *item, *place;   /* points in the heap (n), and where each is there (n_point) */
     int n;
 } Heap;
@@ -32,7 +33,7 @@ static void put(Heap *heap, int at, int point) {
     heap->place[point] = at;
 }
 
-/* Moves the point at a place up or down to where it belongs. */
+/* Moves the point at a place up or down to restore the heap. */
 static void settle(Heap *heap, int at) {
     const int point = heap->item[at];
     for (; at > 0 && goes_first(heap, point, heap->item[(at - 1) / 2]); at = (at - 1) / 2)
@@ -103,7 +104,7 @@ static bool choose(CzArena *arena, const double *x, const double *y, int n_point
     return true;
 }
 
-/* Factor on the kept points other than the ends and the peak that gives the area wanted. */
+/* Factor on the kept points other than the ends and the peak that restores the area. */
 static double scale_for(const double *x, const double *y, int peak, const int *kept, int n_kept,
                         double wanted) {
     double movable = 0;
@@ -114,7 +115,8 @@ static double scale_for(const double *x, const double *y, int peak, const int *k
     return movable > 0 && movable + lost > 0 ? (movable + lost) / movable : 1;
 }
 
-/* Largest difference of the kept, scaled curve to the full one at the full one's points. */
+/* Largest difference between the reduced, scaled curve and the full one, at the points of the
+ * latter. */
 static double largest_difference(const double *x, const double *y, int peak, const int *kept,
                                  int n_kept, double scale) {
     double largest = 0;

@@ -1,9 +1,8 @@
 /* Fewer points for a measured curve.
  *
  * The point whose removal changes the curve least (smallest area of the triangle with its
- * neighbours) goes first. End points and the highest point stay. The energy that this costs is
- * given back by scaling the other kept points together, so that the area under the curve is the
- * same.
+ * neighbours) is removed first. End points and the highest point stay. The other kept points are
+ * scaled together, so that the area under the curve, the energy, is the same.
  */
 #ifndef CZ_PROBLEM_REDUCE_CURVE_H
 #define CZ_PROBLEM_REDUCE_CURVE_H

@@ -1,5 +1,4 @@
-/* A problem once more with further settings, from the tree that was read: no file is opened but
- * those of curves. */
+/* Rereads a problem with further settings from its tree; only files of curves are opened. */
 #include <string.h>
 
 #include "base/error.h"

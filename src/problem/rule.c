@@ -1,4 +1,4 @@
-/* Telling which rule is broken, and where. */
+/* Reports the violated rule and its place. */
 #include "problem/rules.h"
 
 #include <math.h>
@@ -69,9 +69,9 @@ const char *cz_rule_text(char text[48], double si, const char *unit, double unit
 
 bool cz_rule_note(const CzRules *rules, CzValueRule rule, double value, double most) {
     if (rules->ratio != NULL && !isnan(value) && !isnan(most)) {
-        const double far_off = 1e3; /* finite, whatever there is to be at most 0 */
+        const double far_off = 1e3; /* finite, for a limit of 0 */
         const double ratio = most > 0 ? fmin(value / most, far_off) : value > 0 ? far_off : 0;
-        rules->ratio[rule] = fmax(rules->ratio[rule], ratio); /* passes over NaN */
+        rules->ratio[rule] = fmax(rules->ratio[rule], ratio); /* ignores NaN */
     }
     return value > most;
 }

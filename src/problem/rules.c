@@ -1,12 +1,12 @@
-/* What must hold between the values of a problem: going through the records. */
+/* Checks the rules between the values of a problem, record by record. */
 #include "problem/rules.h"
 
 #include <math.h>
 
 #include "base/error.h"
 
-/* What a track is made of matters where it is elastic and something rolls on it; friction where
- * something rolls or brakes. */
+/* Properties of a track have an effect where it is elastic and carries wheels; friction where a
+ * vehicle rolls or brakes. */
 static void check_what_acts(const CzRules *rules) {
     const CzInput *input = rules->input;
     bool rolls = false, brakes = false;
@@ -32,7 +32,7 @@ static void check_what_acts(const CzRules *rules) {
             cz_rule_warning(rules, &input->scenarios[i].friction, nothing);
 }
 
-/* A payload is on board by the share of a scenario, and a share is one of a payload. */
+/* A payload requires a share of it in a scenario, and a share requires a payload. */
 static void check_payload(const CzRules *rules) {
     const CzInput *input = rules->input;
     const double *payload = NULL, *share = NULL;
@@ -49,7 +49,7 @@ static void check_payload(const CzRules *rules) {
         cz_rule_warning(rules, share, "no effect: no vehicle has a 'payload'");
 }
 
-/* The end criterion and its longest time matter to runs without a duration. */
+/* The end criterion and its longest time have an effect in runs without a duration. */
 static void check_times(const CzRules *rules) {
     const CzSimulation *simulation = &rules->input->simulation;
     bool all_have = rules->input->n_scenarios > 0;
@@ -63,7 +63,7 @@ static void check_times(const CzRules *rules) {
                         "no effect: every run has a duration at which it ends");
 }
 
-/* A step of the simulation cannot be longer than what is written out. */
+/* A time step of the simulation must not be longer than the output step. */
 static void check_simulation(const CzRules *rules) {
     const CzSimulation *simulation = &rules->input->simulation;
     if (simulation->time_step > simulation->output_step)

@@ -1,7 +1,7 @@
-/* Rules between values: what they look at and report with, and the functions of rules_*.c, by what
- * they look at. Each rule is a small function that looks at one record and shows what does not
- * hold. Values that could not be read are NaN and break no rule, so that the rules hold even for a
- * problem with other mistakes. */
+/* Rules between values: their context, and the functions of rules_*.c, by the record that they
+ * check. Each rule is a small function that checks one record and reports a violation. Values that
+ * could not be read are NaN and violate no rule, so that the rules can be checked in a problem with
+ * other mistakes. */
 #ifndef CZ_PROBLEM_RULES_H
 #define CZ_PROBLEM_RULES_H
 
@@ -11,16 +11,16 @@ typedef struct CzRules {
     const CzProblem *problem;
     const CzReader *reader;
     const CzInput *input;
-    const CzVehicle *vehicle;        /* those that are judged: the problem's own or a candidate's */
+    const CzVehicle *vehicle;        /* the vehicles to check: the problem's own or a candidate's */
     CzMistakes *mistakes, *warnings; /* where to report; both may be NULL */
     double *ratio; /* how close each rule is to a violation, the largest so far (CZ_N_VALUE_RULE);
                       NULL when not requested */
 } CzRules;
 
-/* Rules that judge a problem as it is and report its reader. */
+/* Context for checking a problem as written and reporting to its reader. */
 CzRules cz_rules_of(CzProblem *problem);
 
-/* Notes that a rule limits a number, in SI, to at most another; whether it is above that. */
+/* Records a number and its upper limit by a rule, in SI; returns whether it is above the limit. */
 bool cz_rule_note(const CzRules *rules, CzValueRule rule, double value, double most);
 
 /* Reports a mistake at the place where a field was written, or at its record when it was not. */
@@ -29,7 +29,7 @@ void cz_rule_broken(const CzRules *rules, const void *field, const char *format,
 /* The same as a warning. */
 void cz_rule_warning(const CzRules *rules, const void *field, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-/* Reports that something is absent; not reported when it may be in a record that could not be read.
+/* Reports that something is absent; except when it may be in a record that could not be read.
  */
 void cz_rule_absent(const CzRules *rules, const void *field, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
@@ -53,7 +53,7 @@ void cz_rules_check_scenarios(const CzRules *rules);
 void cz_rules_check_design(const CzRules *rules, CzTargets *targets);
 void cz_rules_check_fit(const CzRules *rules);
 
-/* All rules but those on limits and variables. */
+/* All rules except those on limits and variables. */
 void cz_rules_check_collision(const CzRules *rules);
 
 #endif

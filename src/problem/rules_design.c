@@ -19,8 +19,8 @@ static void check_scenario_named(const CzRules *rules, const char *const *name) 
     cz_mistake_suggest(rules->mistakes, &suggestion);
 }
 
-/* A word that is none of the list passes as PROVISIONAL: no reason to stop, but perhaps a typing
- * error of `user`. */
+/* A word that is not in the list makes limits PROVISIONAL; it may be a typing error of `user`,
+ * which is a warning only. */
 static void check_confidence(const CzRules *rules, const char *const *confidence) {
     static const char *const words[] = {"S1", "S2", "X", "M1", "M2", "M3", "user"};
     CzSuggestion suggestion = {0};
@@ -86,8 +86,8 @@ static void check_target(const CzRules *rules, const CzVariable *variable, const
                        CZ_SHORT(hi), first->suffix);
 }
 
-/* Adds what a path names to the targets of its variable; how many there are more, 0 with the reason
- * in `error`. */
+/* Adds the targets of a path to those of its variable; returns their number, 0 with the reason in
+ * `error`. */
 static int find(const CzRules *rules, const char *path, CzTargets *targets, CzError *error) {
     const int n_before = targets->n;
     if (cz_problem_find(rules->problem, path, targets, error) == CZ_STATUS_NO_MEMORY)
@@ -134,7 +134,7 @@ static void check_bounds(const CzRules *rules, const CzVariable *variable) {
 
 /* ---- choices ---- */
 
-/* Finds the buffers that a path of a variable with choices names, by a number that only buffers
+/* Finds the buffers that a path of a variable with choices names, by a key that only buffers
  * have. */
 static bool find_buffers(const CzRules *rules, const char *const *path, CzTargets *targets) {
     static const char inside[] = ".preload_N";
@@ -194,7 +194,7 @@ static void check_choices(const CzRules *rules, const CzVariable *variable, CzTa
     if (is_fit(rules))
         cz_rule_broken(rules, &variable->choices, "a fit has no choices");
     if (rules->reader->has_holes || rules->mistakes->n_mistake > 0)
-        return; /* reading again would report other mistakes once more */
+        return; /* rereading would report other mistakes again */
     if (variable->path != NULL && find_buffers(rules, &variable->path, targets))
         check_each_choice(rules, variable, &variable->path);
     for (int i = 0; i < variable->paths.n_text; i++)
@@ -214,7 +214,7 @@ static void check_variable(const CzRules *rules, const CzVariable *variable, CzT
     }
     check_bounds(rules, variable);
     if (rules->reader->has_holes)
-        return; /* a path may lead into what could not be read */
+        return; /* a path may lead into a record that could not be read */
     if (variable->path != NULL)
         check_path(rules, variable, &variable->path, targets);
     for (int i = 0; i < variable->paths.n_text; i++)

@@ -11,7 +11,7 @@ static const double just_above = 1 + 1e-9;
 
 /* ---- curves ---- */
 
-/* What has a law needs stages or a curve, and only one of them. */
+/* A device with a law requires either stages or a curve. */
 static void check_law(const CzRules *rules, const CzDevice *device, const void *record,
                       const char *what) {
     const bool has_stages = cz_rule_is_written(rules, device->stages);
@@ -24,7 +24,7 @@ static void check_law(const CzRules *rules, const CzDevice *device, const void *
             "%s has 'stages' and a 'curve'; remove one of them, for example by stages: null", what);
 }
 
-/* A curve begins at stroke 0; every stage carries a force, or ends at one. */
+/* A curve begins at stroke 0; every stage has a force at its beginning or at its end. */
 static void check_forces(const CzRules *rules, const CzDevice *device, const char *otherwise) {
     const CzTable *curve = device->curve;
     if (curve->given && curve->x[0] != 0)
@@ -35,7 +35,7 @@ static void check_forces(const CzRules *rules, const CzDevice *device, const cha
             cz_rule_broken(rules, &device->stages[i].force, "%s", otherwise);
 }
 
-/* A curve measured at speed already holds the rise with the rate. */
+/* A curve measured at speed already contains the rate effect. */
 static void check_rate(const CzRules *rules, const double *factor, const CzTable *curve) {
     if (curve->given && curve->basis == CZ_BASIS_DYNAMIC && *factor > 0)
         cz_rule_broken(
@@ -171,7 +171,7 @@ static void check_structure(const CzRules *rules, const CzVehicle *vehicle, cons
         !cz_rule_is_written(rules, end->stages) && !cz_rule_is_written(rules, &end->curve);
     const CzDevice crushing = {
         .stages = end->stages, .n_stages = end->n_stages, .curve = &end->curve};
-    if (!is_rigid || vehicle->model == CZ_MODEL_FULL) /* others may have a rigid end */
+    if (!is_rigid || vehicle->model == CZ_MODEL_FULL) /* other ends may be rigid */
         check_law(rules, &crushing, end, "an end");
     if (end->n_stages > MOST_END_STAGES)
         cz_rule_broken(rules, end->stages, "an end has %d stages; at most %d are allowed",
@@ -209,7 +209,7 @@ static void check_gaps(const CzRules *rules, const CzEnd *end) {
                        CZ_MM(coupler->gap + travel), CZ_MM(device->gap));
 }
 
-/* What a sheared coupler keeps is less than what sheared it. */
+/* The residual force of a sheared coupler is less than its shear-off force. */
 static void check_shear_off(const CzRules *rules, const CzShearOff *device) {
     if (device->given && device->residual_force >= device->force)
         cz_rule_broken(rules, &device->residual_force,

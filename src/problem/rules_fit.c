@@ -1,10 +1,10 @@
-/* Rules of what a fit shall reproduce. */
+/* Rules of the matches of a fit. */
 #include <math.h>
 
 #include "base/suggest.h"
 #include "problem/rules.h"
 
-/* What has the value: a metric, an event or a channel, and only one of them. */
+/* A match has either a metric, an event or a channel. */
 static void check_kind(const CzRules *rules, const CzMatch *match) {
     const int n_kind = (match->metric != NULL) + (match->event != NULL) + (match->channel != NULL);
     if (n_kind != 1)

@@ -1,4 +1,4 @@
-/* Rules of names: what they hold (base/text.h), and that no two are one. */
+/* Rules of names: their characters (base/text.h), and that they are unique. */
 #include <stdio.h>
 #include <string.h>
 
@@ -7,7 +7,7 @@
 #include "crushzone/channel.h"
 #include "problem/rules.h"
 
-/* ---- what they hold ---- */
+/* ---- characters ---- */
 
 /* Names are in paths, columns, files and folders. */
 static void check_name(const CzRules *rules, const char *const *name, const char *what,
@@ -23,7 +23,7 @@ static void check_label(const CzRules *rules, const char *const *label, const ch
                        (int)CZ_MOST_LABEL);
 }
 
-/* ---- that no two are one ---- */
+/* ---- uniqueness ---- */
 
 /* The names of one kind so far. */
 typedef struct Names {
@@ -42,12 +42,12 @@ static int add(Names *names, const char *name, int number) {
     const int first = cz_index_find(&names->index, name, n);
     if (first >= 0)
         return first;
-    (void)cz_index_add(&names->index, name, n, number); /* the arena knows of a lack of memory */
+    (void)cz_index_add(&names->index, name, n, number); /* the arena reports a lack of memory */
     return number;
 }
 
-/* A name that two records have. Where both have it from one part, the places are those of the
- * records and not of the part. */
+/* Reports a name that two records have. Where both have it from one part, the places are those of
+ * the records and not of the part. */
 static void refuse_second(const CzRules *rules, const char *what, const char *const *first_name,
                           const void *first, const char *const *name, const void *second) {
     CzError at = {0}, first_at = {0};
@@ -119,8 +119,8 @@ static void add_columns(Names *names, bool of_interface, const char *name,
     }
 }
 
-/* Vehicles whose names make one name of two columns, such as A-B and C beside A and B-C, where they
- * are beside one another. */
+/* Vehicles whose interfaces would have the same name of a column, such as A-B and C as well as A
+ * and B-C. */
 static void check_columns(const CzRules *rules) {
     Names names = names_of(rules);
     const CzVehicle *vehicle = rules->problem->vehicle;
@@ -139,7 +139,7 @@ static void check_columns(const CzRules *rules) {
 
 /* ---- scenarios ---- */
 
-/* Names in small letters: some file systems report no others. */
+/* Names in small letters: some file systems do not distinguish case. */
 static const char *small(const CzRules *rules, const char *name) {
     char *copy = cz_arena_copy_text(rules->mistakes->arena, name, strlen(name));
     for (char *c = copy; c != NULL && *c != '\0'; c++)
@@ -148,7 +148,7 @@ static const char *small(const CzRules *rules, const char *name) {
     return copy;
 }
 
-/* Whether a result folder holds something of that name itself. */
+/* Whether a result folder itself contains a file of that name. */
 static bool is_result_file(const char *name) {
     static const char *const files[] = {
 #define CZ_RESULT_FILE(constant, name, doc) name,

@@ -9,7 +9,7 @@
 
 /* ---- vehicles ---- */
 
-/* What is left for the body when ends and running gear are taken off [kg]. */
+/* Mass of the body without ends and running gear [kg]. */
 static double body_mass(const CzVehicle *vehicle) {
     const CzBogie *bogie = &vehicle->bogie;
     double mass = vehicle->mass - 2 * (bogie->mass + 2 * bogie->wheelset_mass);
@@ -77,7 +77,7 @@ typedef struct Facing {
     const CzEnd *end, *opposite;
 } Facing;
 
-/* Couplers and side buffers act in pairs, or alone against a partner that does not move. */
+/* Couplers and side buffers act in pairs, or unpaired against a fixed partner. */
 static void warn_of_unpaired_devices(const CzRules *rules, const Facing *facing) {
     const CzEnd *end = facing->end, *opposite = facing->opposite;
     const char *own = name_of(facing->own->name), *other = name_of(facing->other->name);
@@ -122,7 +122,7 @@ static void check_neighbours(const CzRules *rules, const CzVehicle *behind,
     }
 }
 
-/* A wall or buffer stop stands still; NaN is no speed. */
+/* A wall or buffer stop has no speed; NaN means that none is given. */
 static void check_standing(const CzRules *rules, const CzTrain *train, const double *speed) {
     if (has(train, CZ_MODEL_FIXED) && *speed != 0 && !isnan(*speed))
         cz_rule_broken(rules, speed, "a train with a fixed vehicle must have speed 0");
@@ -201,7 +201,7 @@ static double chosen(double own, double otherwise) {
     return isnan(own) ? otherwise : own;
 }
 
-/* The train behind must come nearer to the one ahead. */
+/* The train behind must approach the one ahead. */
 static void check_closing(const CzRules *rules, const CzScenario *scenario,
                           const CzTrain *const pair[2]) {
     const double behind = chosen(scenario->speed, pair[0]->speed);
@@ -219,7 +219,7 @@ static void check_closing(const CzRules *rules, const CzScenario *scenario,
     check_standing(rules, pair[1], &scenario->partner_speed);
 }
 
-/* The interface that is perturbed too must be inside one of the two trains. */
+/* The additional interface with a perturbation must be inside one of the two trains. */
 static void check_interface(const CzRules *rules, const CzScenario *scenario,
                             const CzTrain *const pair[2]) {
     CzSuggestion suggestion = {0};
@@ -245,7 +245,7 @@ static void check_interface(const CzRules *rules, const CzScenario *scenario,
     cz_mistake_suggest(rules->mistakes, &suggestion);
 }
 
-/* A height offset tilts what can tilt: a full vehicle that meets one that moves. */
+/* A height offset has an effect only on a full vehicle that meets a movable one. */
 static void check_offset(const CzRules *rules, const double *offset, const CzVehicle *behind,
                          const CzVehicle *ahead) {
     const bool is_full = behind->model == CZ_MODEL_FULL || ahead->model == CZ_MODEL_FULL;
@@ -274,7 +274,7 @@ static void check_brake(const CzRules *rules, const double *ratio, const CzTrain
         cz_rule_broken(rules, ratio, "train '%.48s' has no 'brake'", name_of(train->name));
 }
 
-/* One of two trains at least must be there to be judged. */
+/* At least one of two trains must not be an obstacle. */
 static void check_roles(const CzRules *rules, const CzTrain *const pair[2]) {
     bool any_judged = false;
     for (int i = 0; i < 2; i++)
@@ -287,7 +287,8 @@ static void check_roles(const CzRules *rules, const CzTrain *const pair[2]) {
             name_of(pair[0]->name), name_of(pair[1]->name));
 }
 
-/* A train that no scenario takes is easily one too many: without names the first two collide. */
+/* A train that no scenario uses is probably a mistake: without names the first two trains
+ * collide. */
 static void check_taken(const CzRules *rules, const CzTrain *train) {
     const CzInput *input = rules->input;
     bool is_taken = train < input->trains + 2 && input->n_scenarios == 0;

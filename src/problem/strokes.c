@@ -1,4 +1,4 @@
-/* Changing the strokes of curves. */
+/* Converts the strokes of curves. */
 #include "problem/strokes.h"
 
 #include <math.h>
@@ -9,8 +9,8 @@
 #include "tree/merge.h"
 
 #define APART 1e-6  /* of the stroke: points that are no closer (ours) */
-#define BEHIND 0.01 /* of the stroke: a law that is further behind its curve is reported (ours) */
-#define WITHOUT_FORCE 0.2 /* of the mean force: a curve that begins below begins without (ours) */
+#define BEHIND 0.01 /* of the stroke: a larger decrease of plastic strokes is reported (ours) */
+#define WITHOUT_FORCE 0.2 /* of the mean force: a smaller first force counts as zero (ours) */
 
 double cz_total_stroke(const CzStage *stage, int n_stage, const CzTable *curve) {
     if (curve != NULL && curve->given)
@@ -39,10 +39,10 @@ static double mean_force(const CzTable *curve) {
     return cz_work(curve->x, curve->y, 0, last) / curve->x[last];
 }
 
-/* Adds compliance times force to the strokes; `*behind` is the largest length by which they then go
- * back, which no law does. On an elastic rise all plastic strokes are the same
- * and the last force counts: at 0 alone, elsewhere as a rise that is as steep as points may be.
- * Other points that would not lie behind the one before are dropped. */
+/* Adds compliance times force to the strokes; `*behind` is the largest length by which they then
+ * decrease, which no law can. On an elastic rise all plastic strokes are equal and the last force
+ * counts: at 0 alone, elsewhere as a rise as steep as the smallest distance of points allows. Other
+ * points that do not increase the stroke are dropped. */
 static bool add_elastic(CzTable *curve, double compliance, double *behind) {
     const double apart = APART * curve->x[curve->n_point - 1];
     int n = 0, top = 0; /* the point that ends the latest rise */
@@ -100,7 +100,7 @@ static void bind_plastic(CzReader *reader, const CzNode *node, const CzTrail *tr
 void cz_bind_strokes(CzReader *reader, const CzRecord *record, const CzNode *node,
                      const CzTrail *trail, void *memory) {
     const CzEntry *entry = cz_node_find(node, "curve");
-    if (entry != NULL) { /* what is reported is reported there */
+    if (entry != NULL) { /* place of the messages */
         node = entry->value;
         trail = cz_entry_trail(entry, trail);
     }

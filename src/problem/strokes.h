@@ -1,4 +1,4 @@
-/* Strokes of curves: total ones hold the elastic shortening, plastic ones do not.
+/* Strokes of curves: total ones include the elastic shortening, plastic ones do not.
  *
  *   tube, anti-climber   d = s + F / k            the law is over s, k its stiffness
  *   end                  d = s + c F,  c = (1 - r) / Ku1 + r / Ku2   the law is over d
@@ -11,7 +11,7 @@
 #include "problem/input.h"
 #include "tree/reader.h"
 
-/* What a tube and an anti-climber, which collapse, have in common. */
+/* Common properties of tubes and anti-climbers, the collapsing devices. */
 typedef struct CzDevice {
     bool given;
     int count;
@@ -38,12 +38,12 @@ double cz_free_stroke(const CzEnd *end);
  * is no curve. */
 double cz_total_stroke(const CzStage *stage, int n_stage, const CzTable *curve);
 
-/* Makes the strokes of a device's curve those that its law is over: plastic ones of a tube or
- * anti-climber, total ones of an end. Other records are left alone. */
+/* Converts the strokes of a device's curve to those of its law: plastic ones of a tube or
+ * anti-climber, total ones of an end. Other records are unchanged. */
 void cz_bind_strokes(CzReader *reader, const CzRecord *record, const CzNode *node,
                      const CzTrail *trail, void *memory);
 
-/* Whether the strokes of a curve were made with this number, which then cannot vary. */
+/* Whether the strokes of a curve were converted with this number, which then cannot vary. */
 bool cz_strokes_depend_on(const CzInput *input, const double *field);
 
 #endif

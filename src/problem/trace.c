@@ -8,20 +8,20 @@
 
 #include "base/number.h"
 
-#define STROKE_NOISE 0.01 /* of the largest stroke that it may go back while loading (ours) */
-#define FORCE_NOISE 0.02  /* of the largest force: less is none (ours) */
+#define STROKE_NOISE 0.01 /* of the largest stroke: noise while loading (ours) */
+#define FORCE_NOISE 0.02  /* of the largest force: a smaller one counts as zero (ours) */
 #define MOST_TURNS                                                                                 \
     3 /* of strokes in some order: a wiggle before the load, and the unloading (ours) */
 #define CONTACT 0.01     /* of the largest force: where it begins (ours) */
 #define FREE_TRAVEL 0.05 /* of the stroke: more without force is reported (ours) */
 #define UNLOADED 0.8     /* an unloading ends below this share of the force (ours) */
-#define UNLOADING 1e-3   /* of the stroke: one that goes back less is none (ours) */
+#define UNLOADING 1e-3   /* of the stroke: a smaller decrease is not an unloading (ours) */
 
 CzTraceShape cz_trace_shape_default(void) {
     return (CzTraceShape){.scale = 1.0, .from = NAN, .to = NAN};
 }
 
-/* What is being made. */
+/* A trace while it is converted. */
 typedef struct Making {
     CzMistakes *mistakes;
     const CzSource *source;
@@ -126,7 +126,7 @@ static void drop_before(CzTrace *trace, int first) {
     memmove(trace->line, trace->line + first, (size_t)trace->n * sizeof *trace->line);
 }
 
-/* Lets a curve begin where the stroke first comes to a value, on the line there. */
+/* Begins a curve where the stroke first reaches a value, by interpolation. */
 static void begin_at(CzTrace *trace, double at) {
     int first = 0;
     while (first < trace->n && trace->x[first] < at)
@@ -142,7 +142,7 @@ static void begin_at(CzTrace *trace, double at) {
     drop_before(trace, first);
 }
 
-/* Lets a curve end where the stroke first comes to a value, on the line there. */
+/* Ends a curve where the stroke first reaches a value, by interpolation. */
 static void end_at(CzTrace *trace, double at) {
     int end = 0;
     while (end < trace->n && trace->x[end] < at)
@@ -157,7 +157,7 @@ static void end_at(CzTrace *trace, double at) {
     trace->n = end + 1;
 }
 
-static bool take_part(Making *making) {
+static bool cut_part(Making *making) {
     CzTrace *trace = making->trace;
     const double low = making->shape->from * making->unit, high = making->shape->to * making->unit;
     const Range x = range_of(trace->x, trace->n);
@@ -171,8 +171,8 @@ static bool take_part(Making *making) {
     return true;
 }
 
-/* Refuses strokes that turn, by more than noise, as often as those of no order or of many cycles;
- * what is said of their beginning would mislead. */
+/* Rejects strokes that reverse, by more than noise, as often as unordered points or many cycles do,
+ * since a message about their beginning would mislead. */
 static bool check_turns(const Making *making) {
     const CzTrace *trace = making->trace;
     const Range x = range_of(trace->x, trace->n);
@@ -207,7 +207,7 @@ static int find_contact(const CzTrace *trace, double peak) {
     return first;
 }
 
-/* The zero of a curve about which nothing was said. */
+/* The zero of a curve for which none is given. */
 static bool find_zero(Making *making, double peak, double *zero) {
     CzTrace *trace = making->trace;
     const Range x = range_of(trace->x, trace->n);
@@ -286,7 +286,7 @@ static bool check_sizes(Making *making) {
     return peak > 0.0 || refuse(making, 0, "no point of the curve has a force");
 }
 
-/* Strokes may go back by noise, else only once, behind the largest. */
+/* Strokes may decrease by noise, or once after the largest. */
 static bool check_order(const Making *making) {
     const CzTrace *trace = making->trace;
     const double noise = STROKE_NOISE * trace->x[trace->n_loading - 1];
@@ -336,7 +336,7 @@ static void note_free_travel(CzTrace *trace) {
 bool cz_trace_make(CzMistakes *mistakes, const CzSource *source, const CzTraceShape *shape,
                    double unit, CzTrace *trace) {
     Making making = {mistakes, source, shape, unit, trace};
-    if (!set_indicators(&making) || !take_part(&making) || !check_turns(&making) ||
+    if (!set_indicators(&making) || !cut_part(&making) || !check_turns(&making) ||
         !set_zero(&making) || !check_sizes(&making))
         return false;
 

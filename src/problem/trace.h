@@ -1,9 +1,9 @@
-/* A force-stroke curve out of measured points: signs, zero, the part that counts, loading and
+/* A force-stroke curve from measured points: signs, zero, the part that counts, loading and
  * unloading.
  *
- * Compression counts positive and a curve begins at stroke 0. A file in which both columns are
- * negative has counted it the other way, and one that begins without force somewhere else has
- * another zero: both are corrected and reported. Ambiguous files are refused.
+ * Compression is positive and a curve begins at stroke 0. A file in which both columns are negative
+ * has the opposite sign, and one that begins without force at another stroke has another zero: both
+ * are corrected and reported. Ambiguous files are refused.
  */
 #ifndef CZ_PROBLEM_TRACE_H
 #define CZ_PROBLEM_TRACE_H
@@ -13,16 +13,15 @@
 #define CZ_LARGEST_STROKE 10.0 /* that a curve may have, as a stage of the problem file [m] */
 #define CZ_LARGEST_FORCE 1e8   /* [N] */
 
-/* Where stroke 0 is. */
+/* Definition of stroke 0. */
 typedef enum {
-    CZ_ZERO_BY_CURVE,   /* where the strokes of the file have it, or at the first point when that
-                           has no force */
+    CZ_ZERO_BY_CURVE,   /* as in the file, or at the first point when that has no force */
     CZ_ZERO_AT_START,   /* at the first point */
     CZ_ZERO_AT_CONTACT, /* where the force begins */
     CZ_ZERO_AT_STROKE   /* at a stroke of the file */
 } CzTraceZero;
 
-/* How the points become a curve. Begin with cz_trace_shape_default. */
+/* Options for converting points to a curve. Begin with cz_trace_shape_default. */
 typedef struct CzTraceShape {
     bool flips[2]; /* the sign of strokes, of forces */
     double scale;  /* of forces */
@@ -40,14 +39,14 @@ enum { CZ_TRACE_MOST_NOTES = 6 };
 typedef struct CzTrace {
     int n;
     double *x, *f; /* stroke [m] and force [N] in the order of the test (n) */
-    int *line;     /* where each is in the file; counted from 1 (n) */
+    int *line;     /* line of each in the file, counted from 1 (n) */
     int n_loading; /* points up to the largest stroke, that one included */
-    bool unloads;  /* the points from there on are an unloading */
-    int n_note;    /* what was corrected: sentences without a stop */
+    bool unloads;  /* the points after them are an unloading */
+    int n_note;    /* corrections, as sentences without a full stop */
     char note[CZ_TRACE_MOST_NOTES][200];
 } CzTrace;
 
-/* Makes a curve of the trace's points in place; `unit` is the SI value of the file's unit of
+/* Converts the trace's points to a curve in place; `unit` is the SI value of the file's unit of
  * strokes. False with a mistake at a line of the source. */
 bool cz_trace_make(CzMistakes *mistakes, const CzSource *source, const CzTraceShape *shape,
                    double unit, CzTrace *trace);

@@ -13,7 +13,7 @@
 /* Warns of numbers outside of their usual range. */
 void cz_usual_check(CzMistakes *warnings, const CzPlaces *places);
 
-/* Writes the usual range of a key behind its range; nothing when it has none. */
+/* Writes the usual range of a key after its range; nothing when it has none. */
 void cz_usual_write(FILE *stream, const CzKey *key);
 
 #endif

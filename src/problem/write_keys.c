@@ -1,4 +1,4 @@
-/* The keys for people: a list for the terminal and the reference in Markdown. */
+/* The keys for readers: a list for the terminal and the reference in Markdown. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,7 +15,7 @@ static void spell(char *text, size_t size, const CzKey *key) {
         snprintf(text, size, "%s", key->stem);
 }
 
-/* Writes what kind of value a key takes: "number, 0 to 10 m". */
+/* Writes the kind of value of a key: "number, 0 to 10 m". */
 static void write_kind(FILE *stream, const CzKey *key) {
     const CzWordSet *set = key->words;
     switch (key->kind) {
@@ -60,7 +60,7 @@ static void write_kind(FILE *stream, const CzKey *key) {
     cz_acts_write(stream, key);
 }
 
-/* Writes whether a key must be there, or what holds without it. */
+/* Writes whether a key is required, or its default. */
 static void write_presence(FILE *stream, const CzKey *key) {
     if (key->presence == CZ_PRESENCE_REQUIRED)
         fputs("required", stream);

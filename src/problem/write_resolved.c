@@ -15,7 +15,7 @@ enum { COMMENT_COLUMN = 44 };
 typedef struct {
     const CzProblem *problem;
     FILE *stream;
-    const char *lead; /* "# " while a record that the file has not is shown */
+    const char *lead; /* "# " for a record that is not in the file */
     bool is_there;    /* for a result folder */
 } Writer;
 
@@ -24,8 +24,7 @@ static void write_record(const Writer *writer, const CzRecord *record, const cha
 
 /* ---- texts ---- */
 
-/* Whether a text can stand without quotes, for this reader and for others that take some words for
- * flags. */
+/* Whether a text needs no quotes, for this reader and for others that read some words as flags. */
 static bool is_plain(const char *text) {
     static const char *const words[] = {"null", "true", "false", "yes", "no",
                                         "on",   "off",  "y",     "n"};
@@ -85,7 +84,8 @@ static int write_key(const Writer *writer, const char *key, const char *suffix, 
                    dash, key, suffix[0] != '\0' ? "_" : "", suffix);
 }
 
-/* A text of a record as it is written: of a file that a result folder holds, its name there. */
+/* A text of a record as it is written; for a file that is copied to a result folder, its name
+ * there. */
 static const char *text_of(const Writer *writer, const char *const *field, size_t room,
                            char *name) {
     const CzOptimise *optimise = &writer->problem->input.optimise;
@@ -164,8 +164,8 @@ static void write_table(const Writer *writer, const CzKey *key, const CzTable *t
 
 /* ---- design variables ----
  *
- * Parts and copies are written out, so a variable's path through a part names the vehicles' places
- * instead, with the unit of its key kept for min and max. */
+ * Parts and copies are written out, so a variable's path through a part is replaced by the places
+ * in the vehicles; min and max keep the unit of its key. */
 
 /* Writes the path of a number inside a record, such as ".front.stages[0].force". */
 static bool write_inner_path(char *text, size_t size, const CzRecord *record, size_t offset) {
@@ -196,7 +196,7 @@ static void write_target(const Writer *writer, const CzTarget *target) {
     const CzInput *input = &writer->problem->input;
     char inner[CZ_PATH_ROOM] = "";
     int train = 0, vehicle = target->vehicle;
-    if (vehicle < 0) { /* of no vehicle, so of no part */
+    if (vehicle < 0) { /* not in a vehicle, so not from a part */
         fprintf(writer->stream, "\"%s\"", target->place);
         return;
     }
@@ -238,7 +238,7 @@ static void write_variables(const Writer *writer, const CzVariable *variable, in
     const CzTargets *targets =
         cz_problem_targets(writer->problem, (int)(variable - optimise->variables));
     const CzTarget *target = targets->target;
-    if (variable->choices.n_text > 0 || targets->n == 0) { /* no parts are here to choose from */
+    if (variable->choices.n_text > 0 || targets->n == 0) { /* without parts there is no choice */
         Writer remark = *writer;
         remark.lead = variable->choices.n_text > 0 ? "# " : writer->lead;
         write_record(&remark, &cz_records[CZ_RECORD_CzVariable], (const char *)variable, indent,
@@ -273,7 +273,7 @@ static void write_list(const Writer *writer, const CzKey *key, const char *memor
         write_record(writer, record, item + (size_t)i * record->size, indent + 4, "- ");
 }
 
-/* Whether nothing is left to optimise once the choices of parts are made. */
+/* Whether all variables are choices of parts, so that none remains here. */
 static bool has_only_choices(const CzKey *key, const char *field) {
     const CzOptimise *optimise = (const CzOptimise *)(const void *)field;
     if (key->child != &cz_records[CZ_RECORD_CzOptimise])
@@ -291,20 +291,20 @@ static void write_child(const Writer *writer, const CzKey *key, const char *fiel
     if (!is_given && key->child != &cz_records[CZ_RECORD_CzSimulation] &&
         key->child != &cz_records[CZ_RECORD_CzChecks])
         return;
-    if (!is_given || has_only_choices(key, field)) /* these hold without being written */
+    if (!is_given || has_only_choices(key, field)) /* defaults are not written */
         inside.lead = "# ";
     const int column = write_key(&inside, key->stem, "", indent, "");
     write_origin(writer, key, field, column);
     write_record(&inside, record, field, indent + 2, "");
 }
 
-/* Whether a number is its default and does nothing. */
+/* Whether a number is its default and has no effect. */
 static bool is_idle_default(const Writer *writer, const CzKey *key, const char *field) {
     return key->kind == CZ_KEY_NUMBER && *(const double *)(const void *)field == key->absent &&
            !cz_field_acts(writer->problem, key, field);
 }
 
-/* Writes the keys of a record that do something; `dash` goes before the first. */
+/* Writes the keys of a record that have an effect; `dash` goes before the first. */
 static void write_record(const Writer *writer, const CzRecord *record, const char *memory,
                          int indent, const char *dash) {
     for (int i = 0; i < record->n_key; i++) {

@@ -1,7 +1,7 @@
 /* JSON schema (draft-07) of a problem file, for completion and checks in editors.
  *
- * Overrides beside `use` and overlays leave keys out, so only a stage, which is always whole, has
- * required keys. No stem may be in two units.
+ * Overrides next to `use` and overlays omit keys, so only a stage, which is always complete, has
+ * required keys. No stem may occur in two units.
  */
 #include <stdio.h>
 #include <string.h>
@@ -80,7 +80,7 @@ static void write_key(FILE *stream, bool *is_first, const CzKey *key) {
     case CZ_KEY_FLAG:
         fputs(", \"type\": \"boolean\"}", stream);
         break;
-    case CZ_KEY_CHILD: /* a description beside $ref is not read in draft-07, hence allOf */
+    case CZ_KEY_CHILD: /* a description next to $ref is ignored in draft-07, hence allOf */
         fprintf(stream, ", \"allOf\": [{\"$ref\": \"#/definitions/%s\"}]}", key->child->name);
         break;
     case CZ_KEY_STAGES:
@@ -117,7 +117,7 @@ static void write_required(FILE *stream, const CzKey *key) {
     fputs("]}", stream);
 }
 
-/* Each pair of units of each stem is forbidden. */
+/* Forbids each pair of units of each stem. */
 static void write_pairs(FILE *stream, const CzRecord *record) {
     const char *before = "";
     for (int k = 0; k < record->n_key; k++) {
@@ -172,7 +172,7 @@ static void write_record(FILE *stream, const CzRecord *record) {
     for (int i = 0; i < record->n_key; i++)
         write_key(stream, &is_first, &record->key[i]);
     write_reuse(stream, &is_first, record);
-    if (strcmp(record->name, "profile") == 0) { /* the head of its file is not of the record */
+    if (strcmp(record->name, "profile") == 0) { /* the head of its file is not part of the record */
         open_property(stream, &is_first, "schema", "", "version of the format");
         fputs(", \"type\": \"integer\"}", stream);
     }
@@ -188,7 +188,7 @@ static void write_record(FILE *stream, const CzRecord *record) {
 void cz_keys_write_schema(FILE *stream) {
     fputs("{\n  \"$schema\": \"http://json-schema.org/draft-07/schema#\",\n"
           "  \"title\": \"crushzone problem file, catalogue or profile\",\n"
-          "  \"if\": {\"required\": [\"limits\"]},\n" /* a profile has them at the top */
+          "  \"if\": {\"required\": [\"limits\"]},\n" /* a profile has limits at the top level */
           "  \"then\": {\"$ref\": \"#/definitions/profile\"},\n"
           "  \"else\": {\"$ref\": \"#/definitions/problem\"},\n"
           "  \"type\": \"object\",\n"

@@ -26,7 +26,7 @@ int cz_reading_next(const CzCurveReading *reading, int line) {
     return line < reading->source.n_line ? reading->next[line] : reading->source.n_line;
 }
 
-/* Whether both columns are requested by their numbers, so that titles need not name them. */
+/* Whether both columns are requested by number, so that titles are not required. */
 static bool is_by_number(const CzCurveReading *reading) {
     return cz_curve_column_number(&reading->request->column[0]) >= 0 &&
            cz_curve_column_number(&reading->request->column[1]) >= 0;
@@ -66,7 +66,8 @@ static bool is_of_units(const CzCurveReading *reading, const char *line, bool wi
     return n_unit > 0;
 }
 
-/* Lines behind a line of titles: perhaps units, then points. False when no points follow. */
+/* Reads the lines after a line of titles: perhaps units, then points. False when no points
+ * follow. */
 static bool look_below(CzCurveReading *reading, int line) {
     reading->units = NULL;
     reading->data = line;
@@ -86,8 +87,8 @@ static bool look_below(CzCurveReading *reading, int line) {
     return false;
 }
 
-/* Takes a text as titles when it has both columns and points follow; `found` gets what
- * cz_curve_column_find says. */
+/* Accepts a text as titles when it has both columns and points follow; `found` receives the results
+ * of cz_curve_column_find. */
 static bool try_titles(CzCurveReading *reading, int line, const char *text, int found[2]) {
     if (cz_line_is_empty(text) || numbers_in(reading, text) > 0 || !look_below(reading, line))
         return false;
@@ -144,7 +145,7 @@ bool cz_reading_has_whole_quotes(const CzCurveReading *reading, int line) {
     return false;
 }
 
-/* Hints at the title that is nearest to a mistyped one; false when none is near. */
+/* Suggests the title that is nearest to a mistyped one; false when none is near. */
 static bool suggest(const CzCurveReading *reading, const char *typed) {
     char title[CZ_MOST_FIELD_TEXT];
     CzSuggestion nearest = {0};
@@ -155,7 +156,7 @@ static bool suggest(const CzCurveReading *reading, const char *typed) {
     return nearest.best[0] != '\0';
 }
 
-/* Says which of the columns is not there, or there more than once. */
+/* Reports a column that is missing, or found more than once. */
 static bool refuse_titles(const CzCurveReading *reading, const int found[2]) {
     const CzCurveColumn *column = reading->request->column;
     const int i = found[0] < 0 ? 0 : 1;
@@ -206,12 +207,12 @@ static bool begin_without_titles(CzCurveReading *reading) {
 
 /* ---- units ---- */
 
-/* What the file says about the unit of a column. */
+/* Information in the file on the unit of a column. */
 typedef struct Units {
     CzField field, below; /* the title, and the field of the row of units */
     char title[CZ_MOST_FIELD_TEXT];
     const CzUnit *in_title, *in_row;
-    bool has_unknown; /* the row of units has something there that is none */
+    bool has_unknown; /* the row of units has a field here that is not a unit */
 } Units;
 
 static Units units_of(const CzCurveReading *reading, int i) {
@@ -230,7 +231,7 @@ static Units units_of(const CzCurveReading *reading, int i) {
     return units;
 }
 
-/* Says what is wrong with the unit of a column, where it is: in the title or in the row below. */
+/* Reports a mistake about the unit of a column at its place: in the title or in the row below. */
 static bool refuse_unit(const CzCurveReading *reading, const CzCurveColumn *column,
                         const Units *units) {
     char list[120], below[CZ_MOST_FIELD_TEXT], sentence[CZ_MOST_FIELD_TEXT + 200];
@@ -270,8 +271,8 @@ static bool refuse_unit(const CzCurveReading *reading, const CzCurveColumn *colu
     return false;
 }
 
-/* Whether a title ends in brackets around what can only be a unit: short, no blank and no digit
- * but an exponent's, unlike "(car 1)" or "(A1)". */
+/* Whether a title ends in brackets around a text that can only be a unit: short, no blank and no
+ * digit except an exponent, unlike "(car 1)" or "(A1)". */
 static bool ends_like_a_unit(const char *title) {
     const size_t n = strlen(title);
     if (n < 3 || (title[n - 1] != ']' && title[n - 1] != ')'))

@@ -1,16 +1,16 @@
-/* A curve file while it is read: what its titles and units are, shared by the sources that read it.
+/* A curve file while it is read: its titles and units, shared by the sources that read it.
  */
 #ifndef CZ_TEXT_CURVE_COLUMNS_H
 #define CZ_TEXT_CURVE_COLUMNS_H
 
 #include "text/curve_title.h"
 
-/* What is wanted of a file. Texts are borrowed. */
+/* Columns and format requested of a file. Texts are borrowed. */
 typedef struct CzCurveRequest {
     CzCurveColumn column[2]; /* x and y */
     char separator;          /* between fields, ' ' for spaces; 0: found from the lines */
     char decimal;            /* '.' or ','; 0: found from the numbers */
-    /* How a user settles what the file leaves open; NULL: only in the file. */
+    /* Options with which a user resolves an ambiguous file; NULL: only by changing the file. */
     const char *column_help, *unit_help, *decimal_help;
 } CzCurveRequest;
 
@@ -18,10 +18,10 @@ typedef struct CzCurveRequest {
 typedef struct CzCurvePoints {
     int n;
     double *x, *y;                     /* [SI] (n) */
-    int *line;                         /* where each is, counted from 1 (n) */
+    int *line;                         /* line of each, counted from 1 (n) */
     char title[2][CZ_MOST_FIELD_TEXT]; /* of both columns; "" without titles */
     double unit[2];                    /* SI values of the units */
-    const char *other_unit[2];         /* that the file has in place of a requested one, or NULL */
+    const char *other_unit[2]; /* unit in the file that differs from the requested one, or NULL */
     const CzSource *source;
 } CzCurvePoints;
 
@@ -32,9 +32,9 @@ typedef struct CzCurveReading {
     const CzCurveRequest *request;
     CzCurvePoints *points;
     char separator, decimal;
-    int *next;          /* of each line, itself or the first behind it that is neither empty nor a
-                           comment; n_line at the end (n_line + 1) */
-    int first;          /* line behind the one that announces the separator */
+    int *next; /* for each line, itself or the first line after it that is neither empty nor a
+                  comment; n_line at the end (n_line + 1) */
+    int first; /* line after the one that announces the separator */
     const char *titles; /* NULL without */
     const char *units;  /* line of units; NULL without */
     int title_line, unit_line;
@@ -43,25 +43,26 @@ typedef struct CzCurveReading {
     int n_field[2]; /* of the titles, or of the first point: all, and up to the last filled one */
 } CzCurveReading;
 
-/* Lists which lines are neither empty nor comments. False without memory. */
+/* Lists the lines that are neither empty nor comments. False without memory. */
 bool cz_reading_list_lines(CzArena *arena, CzCurveReading *reading);
 
-/* The next line from one on that is neither empty nor a comment; n_line without. */
+/* The first line, not before `line`, that is neither empty nor a comment; n_line if none. */
 int cz_reading_next(const CzCurveReading *reading, int line);
 
-/* Which of both columns a field is in, x (0) or y (1); -1 for another one. */
+/* The column of a field, x (0) or y (1); -1 for another one. */
 static inline int cz_reading_column(const CzCurveReading *reading, int field) {
     return field == reading->index[1] ? 1 : field == reading->index[0] ? 0 : -1;
 }
 
 /* Finds titles, row of units and the first line of points in the lines, else in the comments, and
- * the numbers of both columns, or says what is missing. */
+ * the numbers of both columns, or reports what is missing. */
 bool cz_reading_find_columns(CzCurveReading *reading);
 
-/* Refuses a line in which a quote opens and none closes: where its fields end is then unknown. */
+/* Rejects a line with an opening quote and no closing one, because the ends of its fields are
+ * unknown. */
 bool cz_reading_has_whole_quotes(const CzCurveReading *reading, int line);
 
-/* Finds titles alone, of whatever columns. */
+/* Finds titles alone, of any columns. */
 bool cz_reading_find_titles(CzCurveReading *reading);
 
 /* Finds the unit of one of the columns: from the request, the title, or the row of units. */

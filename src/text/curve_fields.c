@@ -1,4 +1,4 @@
-/* Cutting curve files into lines and fields. */
+/* Splits curve files into lines and fields. */
 #include "text/curve_fields.h"
 
 #include <stdint.h>
@@ -26,7 +26,7 @@ static size_t write_character(char *text, unsigned character) {
     return 3;
 }
 
-/* UTF-16 as UTF-8; halves of pairs become question marks, since no number holds one. */
+/* UTF-16 as UTF-8; surrogates become question marks, since numbers do not contain them. */
 static size_t decode_wide(const unsigned char *wide, size_t n_byte, bool low_first, char *text) {
     size_t n = 0;
     for (size_t i = 0; i + 1 < n_byte; i += 2) {
@@ -46,7 +46,7 @@ static size_t decode_western(const unsigned char *bytes, size_t n_byte, char *te
     return n;
 }
 
-/* Makes UTF-8 without a mark of the text in place or in new memory; NULL without memory. */
+/* Converts the text to UTF-8 without a mark, in place or in new memory; NULL without memory. */
 static char *decode(CzArena *arena, const char *text, size_t n_byte, size_t *n) {
     const unsigned char *bytes = (const unsigned char *)text;
     const bool low_first = n_byte >= 2 && bytes[0] == 0xff && bytes[1] == 0xfe;
@@ -98,8 +98,8 @@ static bool is_bracket(char c) {
     return c == '[' || c == '(';
 }
 
-/* Whether a blank parts two fields. One in front of a bracket is between a title and its unit,
- * unless the field is a unit in brackets itself. */
+/* Whether a blank separates two fields. A blank before a bracket is between a title and its unit,
+ * unless the field itself is a unit in brackets. */
 static bool blank_parts(const char *start, const char *at) {
     const char *next = skip_blanks(at);
     return is_bracket(*start) || !is_bracket(*next);
@@ -193,10 +193,10 @@ char cz_line_announced_separator(const char *line) {
 
 enum { LOOKED_AT = 4000, MOST_FIELDS = 64 };
 
-/* How well a separator parts the lines. */
+/* How well a separator splits the lines. */
 typedef struct Score {
-    int lines; /* with two numbers or more that have the most usual number of fields */
-    int texts; /* fields in lines with two numbers that are none */
+    int lines; /* with at least two numbers and the most frequent number of fields */
+    int texts; /* fields that are not numbers in lines with two numbers */
 } Score;
 
 static Score score(const CzSource *source, char separator) {
@@ -226,7 +226,7 @@ char cz_fields_separator(const CzSource *source) {
     Score most = {0};
     for (const char *separator = separators; *separator != '\0'; separator++) {
         const Score found = score(source, *separator);
-        /* Blanks part what tabs part, and the words of a preamble. */
+        /* Blanks separate the same fields as tabs, and also the words of a preamble. */
         const int least = *separator == ' ' && best == '\t' ? 2 * most.lines : most.lines;
         if (found.lines > least || (found.lines == most.lines && found.texts < most.texts)) {
             most = found;

@@ -1,7 +1,7 @@
 /* Lines and fields of curve files.
  *
  * Text may be UTF-8, UTF-16 with its mark, or in the Western code page of older machines; lines end
- * in LF, CR LF or CR. Fields are parted by ';', tabs, ',' or runs of blanks; quotes protect a
+ * in LF, CR LF or CR. Fields are separated by ';', tabs, ',' or runs of blanks; quotes protect a
  * field.
  */
 #ifndef CZ_TEXT_CURVE_FIELDS_H
@@ -11,8 +11,8 @@
 
 enum { CZ_MOST_FIELD_TEXT = 128 }; /* of a field that is kept as text, with its end [byte] */
 
-/* Makes lines of a text. `source` has name, folder and order; its lines lie in the arena. A mistake
- * is added when the text is none. False then, and without memory. */
+/* Splits a text into lines. `source` has name, folder and order; its lines are in the arena. A
+ * mistake is added when the content is not text. False then, and without memory. */
 bool cz_curve_lines(CzArena *arena, CzMistakes *mistakes, const char *text, size_t n_byte,
                     CzSource *source);
 
@@ -23,13 +23,13 @@ typedef struct CzField {
     int column; /* character of the line, counted from 1 */
 } CzField;
 
-/* Walks through the fields of a line; the separator is ' ' for blanks. */
+/* Iterates over the fields of a line; the separator is ' ' for blanks. */
 typedef struct CzFieldWalk {
-    CzField field;  /* at hand */
+    CzField field;  /* present field */
     int n;          /* fields so far, that one included */
     const char *at; /* NULL: no further field */
     char separator;
-    const char *counted; /* characters of the line are counted up to here */
+    const char *counted; /* characters of the line have been counted up to here */
     int n_character;
 } CzFieldWalk;
 
@@ -45,7 +45,7 @@ typedef struct CzFieldCount {
 } CzFieldCount;
 CzFieldCount cz_fields_count(const char *line, char separator);
 
-/* Whether a field is a number, whatever its decimal sign. */
+/* Whether a field is a number with either decimal sign. */
 bool cz_field_is_number(const CzField *field);
 
 /* Copies a field as text, cut where it is too long. */
@@ -54,7 +54,7 @@ const char *cz_field_text(const CzField *field, char text[CZ_MOST_FIELD_TEXT]);
 /* Whether a line has only blanks and separators. */
 bool cz_line_is_empty(const char *line);
 
-/* The text behind the sign of a comment, '#', '%' or '//'; NULL when the line is none. */
+/* The text after the sign of a comment, '#', '%' or '//'; NULL when the line is not a comment. */
 const char *cz_line_comment(const char *line);
 
 /* The separator that `sep=;` in the first line announces; 0 without such a line. */

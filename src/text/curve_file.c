@@ -13,13 +13,13 @@ enum { MOST_LINES = 1000000 };
 
 /* ---- the decimal sign ---- */
 
-/* Numbers that decide, or leave open, what the decimal sign is: the first of each. */
+/* Numbers that decide the decimal sign, or leave it open: the first of each kind. */
 typedef struct Evidence {
     int line[CZ_SIGN_OPEN_COMMA + 1]; /* counted from 1; 0: none */
     CzField field[CZ_SIGN_OPEN_COMMA + 1];
 } Evidence;
 
-/* Evidence of the wanted columns, or of all others. */
+/* Evidence in the requested columns, or in all others. */
 static Evidence collect(const CzCurveReading *reading, bool of_wanted) {
     Evidence evidence = {0};
     for (int line = cz_reading_next(reading, reading->data); line < reading->source.n_line;
@@ -73,7 +73,7 @@ static bool refuse_both(const CzCurveReading *reading, const Evidence *evidence)
     return false;
 }
 
-/* Whether a decimal sign makes no number larger than one can be meant. */
+/* Whether with a decimal sign all numbers are within the plausible range. */
 static bool is_possible(const CzCurveReading *reading, char decimal) {
     for (int line = cz_reading_next(reading, reading->data); line < reading->source.n_line;
          line = cz_reading_next(reading, line + 1)) {
@@ -103,7 +103,8 @@ static bool find_decimal(CzCurveReading *reading) {
     if (point || comma || !is_open)
         return true;
 
-    /* The other columns may show it; where commas part the fields, a point parts decimals. */
+    /* The other columns may show it; where commas separate the fields, the decimal sign is a
+     * point. */
     const Evidence others = collect(reading, false);
     const bool point_there = others.line[CZ_SIGN_POINT] != 0;
     const bool comma_there = others.line[CZ_SIGN_COMMA] != 0;
@@ -172,8 +173,8 @@ static void refuse_count(const CzCurveReading *reading, int line, int n) {
                         "begins with '#'");
 }
 
-/* Takes one line; an empty one of a table is passed over. */
-static void take_point(CzCurveReading *reading, int line) {
+/* Reads one line; an empty line of a table is skipped. */
+static void read_point(CzCurveReading *reading, int line) {
     if (!cz_reading_has_whole_quotes(reading, line))
         return;
     CzFieldWalk walk = cz_fields_begin(reading->source.line[line], reading->separator);
@@ -194,7 +195,7 @@ static void take_point(CzCurveReading *reading, int line) {
         return;
     }
     if (wanted[0].n == 0 && wanted[1].n == 0 && filled > 0)
-        return; /* a row of other columns alone */
+        return; /* a row with values in other columns only */
     double value[2];
     for (int i = 0; i < 2; i++)
         if (!cz_curve_number_read(wanted[i].text, wanted[i].n, reading->decimal, &value[i])) {
@@ -207,12 +208,13 @@ static void take_point(CzCurveReading *reading, int line) {
     points->line[points->n++] = line + 1;
 }
 
-static bool take_points(CzCurveReading *reading) {
+static bool read_all_points(CzCurveReading *reading) {
     const int before = reading->mistakes->n_mistake, n_line = reading->source.n_line;
     if (reading->titles != NULL) {
         const CzFieldCount count = cz_fields_count(reading->titles, reading->separator);
-        /* Columns behind the last one of the first point may be titled and empty. Where blanks part
-         * the fields an empty one cannot be seen, and those behind it would take its place. */
+        /* Columns after the last one of the first point may have titles and be empty. Where blanks
+         * separate the fields an empty one cannot be detected, and later fields would take its
+         * place. */
         const int line = cz_reading_next(reading, reading->data);
         const int n_first = cz_fields_count(reading->source.line[line], reading->separator).all;
         reading->n_field[0] = count.all;
@@ -221,7 +223,7 @@ static bool take_points(CzCurveReading *reading) {
     }
     for (int line = cz_reading_next(reading, reading->data); line < n_line;
          line = cz_reading_next(reading, line + 1))
-        take_point(reading, line);
+        read_point(reading, line);
     if (reading->mistakes->n_mistake > before)
         return false;
     if (reading->points->n >= 2)
@@ -231,7 +233,7 @@ static bool take_points(CzCurveReading *reading) {
     return false;
 }
 
-/* ---- all of it ---- */
+/* ---- the whole file ---- */
 
 static bool make_room(CzArena *arena, int n, CzCurvePoints *points) {
     points->x = cz_arena_allocate(arena, (size_t)n, sizeof *points->x);
@@ -240,7 +242,7 @@ static bool make_room(CzArena *arena, int n, CzCurvePoints *points) {
     return points->x != NULL && points->y != NULL && points->line != NULL;
 }
 
-/* Lines and separator. */
+/* Finds lines and separator. */
 static bool begin(CzArena *arena, const char *text, size_t n_byte, CzCurveReading *reading) {
     if (!cz_curve_lines(arena, reading->mistakes, text, n_byte, &reading->source))
         return false;
@@ -260,8 +262,8 @@ static bool begin(CzArena *arena, const char *text, size_t n_byte, CzCurveReadin
     return true;
 }
 
-/* Reads a text that was read from `source`, whose lines become those that are read: UTF-8, whatever
- * the file is written in. */
+/* Reads the text of `source`, whose lines become those of the converted text: UTF-8, whatever the
+ * encoding of the file. */
 static bool read_points(CzMistakes *mistakes, CzSource *source, const char *text, size_t n_byte,
                         const CzCurveRequest *request, CzCurvePoints *points) {
     CzArena *arena = mistakes->arena;
@@ -276,7 +278,7 @@ static bool read_points(CzMistakes *mistakes, CzSource *source, const char *text
     source->n_line = reading.source.n_line;
     return has_begun && cz_reading_find_columns(&reading) && cz_reading_find_unit(&reading, 0) &&
            cz_reading_find_unit(&reading, 1) && find_decimal(&reading) &&
-           make_room(arena, reading.source.n_line, points) && take_points(&reading);
+           make_room(arena, reading.source.n_line, points) && read_all_points(&reading);
 }
 
 bool cz_curve_points_read(CzSources *sources, CzMistakes *mistakes, const char *path,

@@ -1,12 +1,12 @@
-/* The one reader of curve files: two columns of numbers out of what testing machines, spreadsheets
- * and programs write.
+/* The one reader of curve files: two columns of numbers from files of testing machines,
+ * spreadsheets and programs.
  *
  *   lines before the titles                 passed over (a preamble), as are comments
  *   one line of titles, perhaps one of units
  *   points to the end of the file
  *
- * A file without titles is read when columns and units are given. What can be read in two ways is
- * refused with both of them.
+ * A file without titles is read when columns and units are given. An ambiguous file is rejected
+ * with both readings.
  */
 #ifndef CZ_TEXT_CURVE_FILE_H
 #define CZ_TEXT_CURVE_FILE_H
@@ -14,13 +14,13 @@
 #include "text/curve_columns.h"
 
 /* Reads a file that `place` names (NULL: none does) and adds it to the sources, its lines as they
- * are read: UTF-8, whatever the file is written in. False with a mistake, or without memory. */
+ * are read: UTF-8, whatever the encoding of the file. False with a mistake, or without memory. */
 bool cz_curve_points_read(CzSources *sources, CzMistakes *mistakes, const char *path,
                           const CzNode *place, const CzCurveRequest *request,
                           CzCurvePoints *points);
 
-/* Reads a file ("-" is standard input), and the same from memory, which messages call
- * `name`. Statuses: CZ_OK, CZ_STATUS_INPUT with the first mistake, CZ_STATUS_NO_MEMORY. */
+/* Reads a file ("-" is standard input), or the same from memory, whose name in messages is `name`.
+ * Statuses: CZ_OK, CZ_STATUS_INPUT with the first mistake, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_curve_points_read_file(CzArena *arena, const char *path,
                                                  const CzCurveRequest *request,
                                                  CzCurvePoints *points, CzError *error);

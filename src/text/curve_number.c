@@ -7,19 +7,20 @@
 
 enum { MOST_MARKS = 16, LONGEST = 64 };
 
-/* A text taken apart: digits, with the marks between them. */
+/* The parts of a number: digits, with the marks between them. */
 typedef struct Parts {
-    char digits[LONGEST]; /* sign, digits, and 'e' with the exponent; no marks */
+    char digits[LONGEST]; /* sign, digits, and 'e' with the exponent; without marks */
     int n;
     int n_mark;
-    char mark[MOST_MARKS]; /* '.', ',' or '\'' for signs that only group */
+    char mark[MOST_MARKS]; /* '.', ',' or '\'' for signs that only group digits */
     int at[MOST_MARKS];    /* digits of the mantissa before each */
     int n_mantissa;        /* digits */
     int first;             /* index of the first digit of the mantissa */
     bool has_exponent;
 } Parts;
 
-/* Bytes of a sign that only groups thousands at a place: apostrophe, blank, no-break blank. */
+/* Length in bytes of a sign at a place that only groups thousands: apostrophe, blank, no-break
+ * blank. */
 static size_t group_length(const char *text, size_t n) {
     static const char *const signs[] = {
         "'", " ", "\xc2\xa0", "\xe2\x80\xaf", "\xe2\x80\x89", "\xe2\x80\x99"};
@@ -43,9 +44,9 @@ static bool is_digit(char c) {
     return c >= '0' && c <= '9';
 }
 
-/* Takes a sign at the start of a text; returns its bytes. */
-static size_t take_sign(Parts *parts, const char *text, size_t n) {
-    static const char minus[] = "\xe2\x88\x92"; /* as typesetters write it */
+/* Reads a sign at the start of a text; returns its length in bytes. */
+static size_t read_sign(Parts *parts, const char *text, size_t n) {
+    static const char minus[] = "\xe2\x88\x92"; /* typographic minus */
     if (n > 0 && (*text == '-' || *text == '+')) {
         put(parts, *text);
         return 1;
@@ -57,11 +58,11 @@ static size_t take_sign(Parts *parts, const char *text, size_t n) {
     return 0;
 }
 
-/* Takes an exponent that reaches to the end of the text. */
-static bool take_exponent(Parts *parts, const char *text, size_t n) {
+/* Reads an exponent that ends with the text. */
+static bool read_exponent(Parts *parts, const char *text, size_t n) {
     parts->has_exponent = true;
     put(parts, 'e');
-    size_t at = 1 + take_sign(parts, text + 1, n - 1);
+    size_t at = 1 + read_sign(parts, text + 1, n - 1);
     if (at == n)
         return false;
     for (; at < n; at++)
@@ -70,9 +71,9 @@ static bool take_exponent(Parts *parts, const char *text, size_t n) {
     return true;
 }
 
-static bool take_apart(const char *text, size_t n, Parts *parts) {
+static bool split_number(const char *text, size_t n, Parts *parts) {
     *parts = (Parts){.n = 0};
-    size_t i = take_sign(parts, text, n);
+    size_t i = read_sign(parts, text, n);
     parts->first = parts->n;
     while (i < n) {
         const size_t group = group_length(text + i, n - i);
@@ -86,7 +87,7 @@ static bool take_apart(const char *text, size_t n, Parts *parts) {
             parts->mark[parts->n_mark++] = group > 0 ? '\'' : text[i];
             i += group > 0 ? group : 1;
         } else if (parts->n_mantissa > 0 && strchr("eEdD", text[i]) != NULL) {
-            return take_exponent(parts, text + i, n - i);
+            return read_exponent(parts, text + i, n - i);
         } else {
             return false;
         }
@@ -122,7 +123,7 @@ static bool is_number_with(const Parts *parts, char decimal) {
 
 CzDecimalSign cz_curve_number_sign(const char *text, size_t n) {
     Parts parts;
-    if (!take_apart(text, n, &parts))
+    if (!split_number(text, n, &parts))
         return CZ_SIGN_NO_NUMBER;
     const bool point = is_number_with(&parts, '.'), comma = is_number_with(&parts, ',');
     if (!point && !comma)
@@ -136,7 +137,7 @@ CzDecimalSign cz_curve_number_sign(const char *text, size_t n) {
 bool cz_curve_number_read(const char *text, size_t n, char decimal, double *value) {
     Parts parts;
     char plain[LONGEST + 1];
-    if (!take_apart(text, n, &parts) || !is_number_with(&parts, decimal))
+    if (!split_number(text, n, &parts) || !is_number_with(&parts, decimal))
         return false;
     const int last = parts.n_mark - 1;
     const bool has_decimals = last >= 0 && parts.mark[last] == decimal;

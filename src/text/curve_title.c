@@ -1,4 +1,4 @@
-/* Finding columns and their units. */
+/* Finds columns and their units. */
 #include "text/curve_title.h"
 
 #include <stdio.h>
@@ -43,7 +43,7 @@ const CzUnit *cz_curve_unit_of_title(const char *title, size_t *n_title) {
         copy_bare(at + 1, strlen(at + 1), rest);
         const CzUnit *unit = cz_curve_unit_find(CZ_N_DIMENSION, rest);
         if (unit == NULL)
-            continue; /* the first cut leaves the longest end */
+            continue; /* the first match is the longest unit */
         size_t n = (size_t)(at - title);
         while (n > 0 && strchr(" _/,:", title[n - 1]) != NULL)
             n--;
@@ -102,8 +102,8 @@ static const struct {
     {"time", "zeit"},           {"time", "temps"},          {"speed", "velocity"},
 };
 
-/* Rank of a title for a wanted quantity; the smallest one is selected. */
-typedef enum Answer { EXACT, ALMOST, NAMED, CALLED, IN_UNIT, NOT } Answer;
+/* Rank of a title for a requested quantity; the smallest one is selected. */
+typedef enum Rank { EXACT, ALMOST, NAMED, CALLED, IN_UNIT, NOT } Rank;
 
 static bool begins_with(const char *title, const char *word) {
     const size_t n = strlen(word);
@@ -111,7 +111,7 @@ static bool begins_with(const char *title, const char *word) {
            (title[n] == '\0' || strchr("_ [(/,:", title[n]) != NULL);
 }
 
-static Answer answer_by_name(const CzCurveColumn *column, const char *title) {
+static Rank rank_by_name(const CzCurveColumn *column, const char *title) {
     if (begins_with(title, column->name))
         return NAMED;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
@@ -120,8 +120,8 @@ static Answer answer_by_name(const CzCurveColumn *column, const char *title) {
     return NOT;
 }
 
-/* A title that was requested: as it is, in another case, or without its unit. */
-static Answer answer_to_title(const char *wanted, const char *title) {
+/* Rank for a requested title: identical, in another case, or without its unit. */
+static Rank rank_of_title(const char *wanted, const char *title) {
     size_t n = 0;
     cz_curve_unit_of_title(title, &n);
     if (strcmp(title, wanted) == 0)
@@ -130,26 +130,26 @@ static Answer answer_to_title(const char *wanted, const char *title) {
     return strcasecmp(title, wanted) == 0 || is_bare ? ALMOST : NOT;
 }
 
-static Answer answer_of(const CzCurveColumn *column, const CzField *title, const CzField *below) {
+static Rank rank_of(const CzCurveColumn *column, const CzField *title, const CzField *below) {
     char text[CZ_MOST_FIELD_TEXT];
     cz_field_text(title, text);
     if (column->title != NULL)
-        return answer_to_title(column->title, text);
+        return rank_of_title(column->title, text);
     const CzUnit *unit = cz_curve_unit_of_title(text, NULL);
     if (unit == NULL && below != NULL)
         unit = cz_curve_unit_alone(below);
     if (unit == NULL && title->n > 1) /* "N" may be a number of cycles, "s" a stroke */
         unit = cz_curve_unit_alone(title);
     if (unit != NULL && unit->dimension != column->dimension)
-        return NOT; /* "Extension rate (mm/s)" is no stroke */
-    const Answer by_name = answer_by_name(column, text);
+        return NOT; /* "Extension rate (mm/s)" is not a stroke */
+    const Rank by_name = rank_by_name(column, text);
     return by_name == NOT && unit != NULL ? IN_UNIT : by_name;
 }
 
 int cz_curve_column_find(const CzCurveColumn *column, const char *titles, const char *units_line,
                          char separator) {
     CzFieldWalk walk = cz_fields_begin(titles, separator), below = {0};
-    Answer best = NOT;
+    Rank best = NOT;
     int found = -1;
     if (cz_curve_column_number(column) >= 0)
         return cz_curve_column_number(column) < cz_fields_count(titles, separator).all
@@ -159,11 +159,11 @@ int cz_curve_column_find(const CzCurveColumn *column, const char *titles, const 
         below = cz_fields_begin(units_line, separator);
     while (cz_fields_next(&walk)) {
         const CzField *unit = cz_fields_next(&below) ? &below.field : NULL;
-        const Answer answer = answer_of(column, &walk.field, unit);
-        if (answer == best && best != NOT)
+        const Rank rank = rank_of(column, &walk.field, unit);
+        if (rank == best && best != NOT)
             found = -2;
-        if (answer < best) {
-            best = answer;
+        if (rank < best) {
+            best = rank;
             found = walk.n - 1;
         }
     }

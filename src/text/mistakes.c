@@ -1,4 +1,4 @@
-/* Mistakes: collecting, sorting, naming the part that they came through. */
+/* Collects and sorts mistakes, and names the part through which they came. */
 #include "text/mistakes.h"
 
 #include "base/error.h"

@@ -6,13 +6,13 @@
 
 enum { CZ_MOST_IN_RANGE = 500 };
 
-/* Both ends are among the values. */
+/* The values include both ends. */
 typedef struct CzRange {
     double from, to;
     int n; /* 2 to CZ_MOST_IN_RANGE */
 } CzRange;
 
-/* Reads a text such as "5:40:8"; false when it is none. */
+/* Reads a text such as "5:40:8"; false when it is not a range. */
 bool cz_range_parse(const char *text, CzRange *range);
 
 /* The index-th value. */

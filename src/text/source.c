@@ -14,11 +14,11 @@ void cz_sources_hash(CzSources *sources, const char *bytes, size_t n_byte) {
     uint64_t hash = sources->hash;
     for (size_t i = 0; i < n_byte; i++)
         hash = (hash ^ (unsigned char)bytes[i]) * prime;
-    sources->hash = (hash ^ 0xff) * prime; /* no text holds a byte 0xff */
+    sources->hash = (hash ^ 0xff) * prime; /* no text contains a byte 0xff */
 }
 
-/* Bytes of the end of a line at the start of a text; 0 when there is none. Those of YAML, so that
- * lines are counted as its parser counts them: CR LF, CR, LF, NEL, LS, PS. */
+/* Length in bytes of a line end at the start of a text; 0 when there is none. Line ends of YAML, so
+ * that lines are counted as its parser does, are CR LF, CR, LF, NEL, LS, PS. */
 static size_t line_end_length(const char *text, bool is_yaml) {
     if (text[0] == '\r' || text[0] == '\n')
         return text[0] == '\r' && text[1] == '\n' ? 2 : 1;
@@ -29,7 +29,7 @@ static size_t line_end_length(const char *text, bool is_yaml) {
     return separates ? 3 : 0;
 }
 
-/* The next end of a line, with its bytes; NULL without one. */
+/* The next line end, with its length in bytes; NULL without one. */
 static char *find_line_end(char *at, const char *end, bool is_yaml, size_t *n_end) {
     for (; at < end; at++) {
         *n_end = line_end_length(at, is_yaml);
@@ -99,7 +99,7 @@ static char *read_stream(FILE *stream, size_t *n_byte) {
     return text;
 }
 
-/* Why the last call on a file failed, in words that no locale changes. */
+/* Reason why the last call on a file failed, in the same words in every locale. */
 static const char *why_failed(void) {
     switch (errno) {
     case ENOENT:
@@ -132,7 +132,7 @@ static FILE *open_file(const char *path, const char **why) {
     if (*why != NULL)
         return NULL;
     FILE *stream = fopen(path, "rb");
-    if (stream == NULL && errno != ENOMEM) /* then it is no fault of the file */
+    if (stream == NULL && errno != ENOMEM) /* then it is not a mistake about the file */
         *why = why_failed();
     return stream;
 }
@@ -150,7 +150,7 @@ static void refuse_file(CzMistakes *mistakes, const char *path, const CzNode *pl
                is_folder ? resolved : "");
 }
 
-/* Folder of a path: what is before its last slash, "." without one. */
+/* Folder of a path: the text before its last slash, "." without one. */
 static const char *folder_of(CzArena *arena, const char *path) {
     const char *slash = strrchr(path, '/');
     if (slash == NULL)

@@ -13,7 +13,7 @@ typedef struct CzSources {
     CzArena *arena;
     CzSource *first, *last;
     int n_source;
-    uint64_t hash; /* FNV-1a over names of what was read and its bytes; begin with CZ_HASH_START */
+    uint64_t hash; /* FNV-1a over names and bytes of all that was read; begin with CZ_HASH_START */
 } CzSources;
 
 #define CZ_HASH_START UINT64_C(14695981039346656037)
@@ -31,18 +31,18 @@ CzSource *cz_sources_add(CzSources *sources, const char *name, const char *folde
 CzSource *cz_sources_read(CzSources *sources, CzMistakes *mistakes, const char *path,
                           const CzNode *place, char **text, size_t *n_byte);
 
-/* Makes the lines of a source of a text, which ends in a zero and is cut in place; with `is_yaml`
- * at all line ends of YAML, else at LF, CR and both. False without memory. */
+/* Splits a text into the lines of a source; the text ends in a zero and is cut in place; with
+ * `is_yaml` at all line ends of YAML, else at LF, CR and both. False without memory. */
 bool cz_source_cut(CzArena *arena, CzSource *source, char *text, size_t n_byte, bool is_yaml);
 
 /* Bytes of the byte order mark that some editors put before UTF-8 text; 0 when there is none. */
 size_t cz_source_mark(const char *text, size_t n_byte);
 
-/* Whether the text is UTF-8, whatever its characters are. */
+/* Whether the bytes are UTF-8. */
 bool cz_source_is_utf8(const char *text, size_t n_byte);
 
-/* Whether a file holds what a text may hold (base/text.h), its comments included; otherwise a
- * mistake says where not. */
+/* Whether a file, comments included, has only characters allowed in texts (base/text.h); otherwise
+ * adds a mistake at the first other one. */
 bool cz_source_is_text(CzMistakes *mistakes, const CzSource *source, const char *text,
                        size_t n_byte);
 
@@ -50,7 +50,7 @@ bool cz_source_is_text(CzMistakes *mistakes, const CzSource *source, const char 
  * without memory. */
 const char *cz_path_join(CzArena *arena, const char *folder, const char *path);
 
-/* Whether something is there under a path. */
+/* Whether a path exists. */
 bool cz_path_exists(const char *path);
 
 #endif

@@ -1,4 +1,4 @@
-/* The tables of units, and the stems of keys that end in one. */
+/* The tables of units, and the stems of keys that end in a unit. */
 #include "text/units.h"
 
 #include <stdio.h>
@@ -47,7 +47,7 @@ size_t cz_key_stem_length(const char *key) {
     const size_t n = strlen(key);
     for (const char *at = strchr(key, '_'); at != NULL; at = strchr(at + 1, '_'))
         if (at > key && is_suffix(at + 1))
-            return (size_t)(at - key); /* the first cut leaves the longest suffix */
+            return (size_t)(at - key); /* the first match is the longest suffix */
     return n;
 }
 

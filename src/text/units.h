@@ -25,13 +25,13 @@ extern const int cz_n_unit;
 extern const char *const cz_dimension_text[CZ_N_DIMENSION];
 
 const CzUnit *cz_unit_si(CzDimension dimension);
-/* The unit of the same dimension behind one; NULL behind the last. */
+/* The next unit of the same dimension; NULL after the last. */
 const CzUnit *cz_unit_next(const CzUnit *unit);
 /* Unit of a dimension by its suffix; NULL when it is not one of its units. */
 const CzUnit *cz_unit_find(CzDimension dimension, const char *suffix);
 /* Length of a key without the longest unit suffix at its end [byte]. */
 size_t cz_key_stem_length(const char *key);
-/* Whether two keys are one stem, perhaps in two units. */
+/* Whether two keys have the same stem, in whatever units. */
 bool cz_key_same_stem(const char *a, const char *b);
 /* Writes the spellings of a stem: "stroke_m or stroke_mm". */
 void cz_key_spellings(char *text, size_t size, const char *stem, CzDimension dimension);

@@ -1,4 +1,4 @@
-/* Texts to numbers, counts and flags. */
+/* Converts texts to numbers, counts and flags. */
 #include "text/value.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 #include "base/number.h"
 #include "crushzone/names.h"
 
-/* A value at the edge of its range may miss it by rounding in the change of units. */
+/* Tolerance at the ends of a range for rounding in the conversion of units. */
 static const double ROUNDING = 1e-12;
 
 bool cz_value_is_there(CzValue value) {
@@ -25,7 +25,7 @@ bool cz_value_is_there(CzValue value) {
     return true;
 }
 
-/* Whether a node holds a value without quotes. */
+/* Whether a node is a value without quotes. */
 static bool is_bare(CzValue value, const char *what) {
     if (!cz_value_is_there(value))
         return false;
@@ -36,7 +36,7 @@ static bool is_bare(CzValue value, const char *what) {
     return !value.node->quoted;
 }
 
-/* Refuses a text that is not what it should be. */
+/* Rejects a text of the wrong kind. */
 static bool refuse(CzValue value, const char *wrong) {
     cz_mistake(value.mistakes, value.node, value.trail, "%s: '%.60s' %s", value.key,
                value.node->text, wrong);
@@ -59,7 +59,7 @@ bool cz_value_number(CzValue value, const CzUnit *unit, double lo, double hi, do
     double typed;
     if (value.node->match > 0)
         return true;
-    *number = NAN; /* what is no number breaks no rule */
+    *number = NAN; /* NaN violates no rule */
     if (!is_bare(value, "a number"))
         return false;
     const char *wrong = cz_number_parse(value.node->text, &typed);

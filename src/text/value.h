@@ -6,7 +6,7 @@
 #include "text/mistakes.h"
 #include "text/units.h"
 
-/* A value under its key, which messages name. */
+/* A value with its key, for messages. */
 typedef struct CzValue {
     CzMistakes *mistakes;
     const char *key;
@@ -14,14 +14,14 @@ typedef struct CzValue {
     const CzTrail *trail;
 } CzValue;
 
-/* Whether the node holds a value at all; a mistake when not. */
+/* Whether the node has a value; adds a mistake when not. */
 bool cz_value_is_there(CzValue value);
 
-/* A number in a unit between two limits [SI]; NaN and false with a mistake when it is none. A
- * stand-in for a number leaves `number` alone. */
+/* A number in a unit between two limits [SI]; NaN and false with a mistake when it is not a number.
+ * A stand-in for a number leaves `number` unchanged. */
 bool cz_value_number(CzValue value, const CzUnit *unit, double lo, double hi, double *number);
 
-/* A whole number between two limits; false with a mistake when it is none. */
+/* A whole number between two limits; false with a mistake when it is not. */
 bool cz_value_count(CzValue value, double lo, double hi, int *count);
 
 /* true or false; false with a mistake when it is neither. */

@@ -1,7 +1,7 @@
-/* The only file that includes libyaml: its events become nodes.
+/* The only file that includes libyaml: converts its events to nodes.
  *
- * A failed read stops at the first syntax error, for what follows is guesswork; refused features
- * and duplicate keys are reported all and reading goes on.
+ * Reading stops at the first syntax error, because the rest would be guesswork; all rejected
+ * features and duplicate keys are reported, and reading continues after them.
  */
 #include "text/yaml.h"
 #include "base/index.h"
@@ -23,7 +23,7 @@ typedef struct {
     CzMistakes *mistakes;
     const CzSource *source;
     yaml_parser_t parser;
-    yaml_event_t event; /* the one at hand */
+    yaml_event_t event; /* present event */
     int n_node;
     bool failed;
 } Document;
@@ -41,7 +41,7 @@ static void fail_without_memory(Document *document) {
     document->failed = true;
 }
 
-/* What a complaint of libyaml most often comes from. */
+/* Most frequent causes of messages of libyaml. */
 static const struct {
     const char *problem, *help;
 } hints[] = {
@@ -56,7 +56,7 @@ static const struct {
      "keys of one mapping begin in the same column, and every quotation mark needs a closing one"},
 };
 
-/* Says why libyaml cannot read the text. */
+/* Reports why libyaml cannot read the text. */
 static void report_syntax(Document *document) {
     const yaml_parser_t *parser = &document->parser;
     document->failed = true;
@@ -80,7 +80,7 @@ static void report_syntax(Document *document) {
                   parser->context != NULL ? parser->context : "", began, help);
 }
 
-/* Takes the next event; false at a failure. */
+/* Reads the next event; false on failure. */
 static bool next_event(Document *document) {
     if (document->failed)
         return false;
@@ -92,7 +92,7 @@ static bool next_event(Document *document) {
     return false;
 }
 
-/* Reports a mistake where the event at hand begins. */
+/* Reports a mistake at the beginning of the present event. */
 __attribute__((format(printf, 2, 3))) static void refuse(Document *document, const char *format,
                                                          ...) {
     const CzNode place = {.source = document->source,
@@ -148,7 +148,7 @@ static CzNode *read_text(Document *document) {
     }
     char what[CZ_FAULT_ROOM];
     size_t at;
-    n_byte = cz_text_one_line(text, n_byte); /* blocks of text have several */
+    n_byte = cz_text_one_line(text, n_byte); /* blocks of text have several lines */
     if (cz_text_fault(text, n_byte, false, &at, what)) {
         refuse(document, "a text cannot contain %s", what);
         node->text = "";
@@ -157,7 +157,7 @@ static CzNode *read_text(Document *document) {
     return node;
 }
 
-/* Stands for an alias, which is refused, so that reading can go on. */
+/* Returns a node in place of an alias, which is rejected, so that reading can continue. */
 static CzNode *read_alias(Document *document) {
     refuse(document, "aliases ('*') are not supported" USE_A_PART);
     CzNode *node = node_create(document, CZ_NODE_TEXT);
@@ -201,14 +201,14 @@ static CzNode *read_list(Document *document, int depth) {
     return document->failed ? NULL : list;
 }
 
-/* The mapping at hand: the line of every key so far, the entry that was read last. */
+/* The mapping being read: the line of every key so far, the last entry. */
 typedef struct {
     CzIndex lines;
     CzNode *last_key, *last_value; /* NULL at the first key */
 } Mapping;
 
-/* Whether a key is what is behind a decimal comma, for {mass_t: 36,8} is two keys; the value
- * before it is then refused. */
+/* Whether a key is the text after a decimal comma, since {mass_t: 36,8} has two keys; the value
+ * before it is then rejected. */
 static bool is_behind_comma(Document *document, Mapping *mapping, const CzNode *key) {
     double number;
     char whole[80];
@@ -224,7 +224,7 @@ static bool is_behind_comma(Document *document, Mapping *mapping, const CzNode *
     return true;
 }
 
-/* Reads a key; *is_kept is false when it is refused and its value must be passed over. */
+/* Reads a key; *is_kept is false when it is rejected and its value must be skipped. */
 static CzNode *read_key(Document *document, Mapping *mapping, int depth, bool *is_kept) {
     CzIndex *lines = &mapping->lines;
     *is_kept = false;
@@ -280,7 +280,7 @@ static CzNode *read_mapping(Document *document, int depth) {
     return document->failed ? NULL : mapping;
 }
 
-/* Reads the node that the event at hand begins. NULL at a failure. */
+/* Reads the node that begins with the present event. NULL on failure. */
 static CzNode *read_node(Document *document, int depth) {
     if (depth > DEEPEST) {
         refuse(document, "records and lists are nested more than %d deep", (int)DEEPEST);

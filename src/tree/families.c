@@ -1,4 +1,4 @@
-/* Writing families out. */
+/* Writes families of scenarios out. */
 #include "tree/families.h"
 
 #include <stdio.h>
@@ -65,8 +65,8 @@ static bool list_values(Family *family, Swept *swept) {
     return true;
 }
 
-/* Whether a scenario gives a key that its sweep gives too, in whatever unit. */
-static bool stands_twice(Family *family, const CzEntry *swept) {
+/* Whether a scenario has a key that is also in its sweep, in any unit. */
+static bool is_given_twice(Family *family, const CzEntry *swept) {
     for (int i = 0; i < family->node->n_entry; i++) {
         const CzNode *key = family->node->entry[i].key;
         if (!cz_key_same_stem(key->text, swept->key->text))
@@ -96,7 +96,7 @@ static bool read_sweep(Family *family) {
                        "'%s' cannot be swept", swept->entry->key->text);
             return false;
         }
-        if (stands_twice(family, swept->entry) || !list_values(family, swept))
+        if (is_given_twice(family, swept->entry) || !list_values(family, swept))
             return false;
         family->n_member *= swept->n_value;
         if (family->n_member > MOST_MEMBERS) {
@@ -110,7 +110,7 @@ static bool read_sweep(Family *family) {
 
 /* ---- members ---- */
 
-/* Which value of a swept key a member has; the last key changes fastest. */
+/* The value of a swept key in a member; the last key changes fastest. */
 static const CzNode *value_of(const Family *family, int member, int key) {
     for (int i = family->n_swept - 1; i > key; i--)
         member /= family->swept[i].n_value;
@@ -153,7 +153,7 @@ static const CzNode *member_node(const Family *family, const CzEntry *name, int 
     return node;
 }
 
-/* All scenarios, growing. */
+/* The list of scenarios being built. */
 typedef struct Scenarios {
     CzReader *reader;
     const CzTree *tree;
@@ -162,7 +162,7 @@ typedef struct Scenarios {
     bool is_full;   /* there are too many, which was reported */
 } Scenarios;
 
-/* Whether there may be n more. */
+/* Whether n more scenarios are allowed. */
 static bool may_add(Scenarios *scenarios, int n, const CzNode *place) {
     scenarios->is_full = scenarios->n + n > MOST_SCENARIOS;
     if (scenarios->is_full)

@@ -1,4 +1,4 @@
-/* Files to one tree: the base files of `extends`, the parts of `catalogue`. */
+/* Combines files to one tree: the base files of `extends`, the parts of `catalogue`. */
 #include "tree/load.h"
 
 #include <stdlib.h>
@@ -93,7 +93,7 @@ static void gather_catalogue_parts(Loader *loader, const CzNode *parts) {
     }
 }
 
-/* Parts of the problem file itself: laid over those of catalogues. */
+/* Parts of the problem file itself, merged over those of catalogues. */
 static void gather_own_parts(Loader *loader, const CzNode *parts) {
     for (int i = 0; i < parts->n_entry; i++) {
         const CzEntry *entry = &parts->entry[i];
@@ -170,7 +170,7 @@ static void load_catalogues(Loader *loader, const CzNode *top) {
 
 /* ---- base files ---- */
 
-/* The file laid over its base files; `chain` holds the paths on the way here. */
+/* The file merged over its base files; `chain` contains the paths of the files that led to it. */
 static const CzNode *load_bases(Loader *loader, const CzNode *top, const char **chain,
                                 int n_chain) {
     CzReader *reader = loader->reader;

@@ -1,4 +1,4 @@
-/* Files to one tree: the base files of `extends`, the parts of `catalogue`. */
+/* Combines files to one tree: the base files of `extends`, the parts of `catalogue`. */
 #ifndef CZ_TREE_LOAD_H
 #define CZ_TREE_LOAD_H
 
@@ -7,12 +7,12 @@
 /* Reads one further YAML file that `place` names; NULL when it cannot be read. */
 const CzNode *cz_load_file(CzReader *reader, const char *path, const CzNode *place);
 
-/* Reads what the top file names: base files and catalogues. The tree's root is NULL at a failure.
+/* Reads the base files and catalogues that the top file names. The tree's root is NULL on failure.
  */
 CzTree cz_load_tree(CzReader *reader, const CzNode *top);
 
-/* The file `name` beside the file of `place`, else in the share folder under `subfolder` (may be
- * NULL); a mistake and NULL when there is none. */
+/* The file `name` in the folder of the file of `place`, else in the share folder under `subfolder`
+ * (may be NULL); a mistake and NULL when there is none. */
 const char *cz_load_locate(CzReader *reader, const char *name, const CzNode *place,
                            const char *subfolder);
 

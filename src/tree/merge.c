@@ -1,4 +1,4 @@
-/* Laying one tree over another. */
+/* Merges one tree over another. */
 #include "tree/merge.h"
 
 #include <string.h>
@@ -12,7 +12,7 @@ const CzTrail *cz_entry_trail(const CzEntry *entry, const CzTrail *outer) {
     return entry->trail != NULL ? entry->trail : outer;
 }
 
-/* A record that takes a part of its own and a curve with points of its own replace the base's. */
+/* A record with its own `use`, and a curve with its own points, replace those of the base. */
 static bool replaces(const CzNode *node) {
     return cz_node_find(node, "use") != NULL || cz_node_find(node, "points") != NULL ||
            cz_node_find(node, "file") != NULL;
@@ -25,7 +25,7 @@ CzEntry *cz_find_same_stem(CzNode *mapping, const char *key) {
     return NULL;
 }
 
-/* Numbers of a list's items by their names; of several with one name the first. */
+/* Indexes the items of a list by name; of several with the same name the first. */
 static bool index_names(CzIndex *index, const CzNode *list) {
     for (int i = 0; i < list->n_entry; i++) {
         const char *name = cz_node_find_text(list->entry[i].value, "name");
@@ -57,7 +57,7 @@ static CzNode *copy_base(CzArena *arena, const CzNode *base, const CzTrail *base
     return merged;
 }
 
-/* Lays one entry over its like in the base, or appends it. */
+/* Merges one entry over the same entry of the base, or appends it. */
 static bool merge_entry(CzArena *arena, CzNode *merged, CzEntry *like, const CzEntry *over,
                         const CzTrail *over_trail, bool by_name) {
     const CzTrail *trail = cz_entry_trail(over, over_trail);
@@ -111,7 +111,7 @@ const CzNode *cz_merge(CzArena *arena, const CzNode *base, const CzTrail *base_t
         return merge_lists(arena, base, base_trail, over, over_trail);
     if (base->kind == CZ_NODE_MAPPING || over->kind != CZ_NODE_MAPPING || replaces(over))
         return over;
-    CzNode *alone = cz_node_copy(arena, over, 0); /* the base should have been a mapping too */
+    CzNode *alone = cz_node_copy(arena, over, 0); /* the base is not a mapping */
     if (alone != NULL)
         alone->is_partial = true;
     return alone;

@@ -1,4 +1,4 @@
-/* Laying one tree over another. */
+/* Merges one tree over another. */
 #ifndef CZ_TREE_MERGE_H
 #define CZ_TREE_MERGE_H
 
@@ -9,10 +9,10 @@ extern const CzTrail cz_no_trail;
 /* The trail of an entry in a mapping or list that has the trail `outer`. */
 const CzTrail *cz_entry_trail(const CzEntry *entry, const CzTrail *outer);
 
-/* The entry of a mapping under a key, in whatever unit; NULL without. */
+/* The entry of a mapping under a key, in any unit; NULL when there is none. */
 CzEntry *cz_find_same_stem(CzNode *mapping, const char *key);
 
-/* `over` laid over `base`. With by_name, lists of named records merge by name. */
+/* `over` merged over `base`. With by_name, lists of named records merge by name. */
 const CzNode *cz_merge(CzArena *arena, const CzNode *base, const CzTrail *base_trail,
                        const CzNode *over, const CzTrail *over_trail, bool by_name);
 

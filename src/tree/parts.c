@@ -1,4 +1,5 @@
-/* Parts: finding them, how deep they use one another, and `use` with what is written beside it. */
+/* Parts: finding them, the depth to which they use one another, and `use` with the keys next to
+ * it. */
 #include "tree/parts.h"
 
 #include <string.h>
@@ -11,7 +12,7 @@ CzPart *cz_tree_part(const CzTree *tree, const char *name, size_t n) {
     return at >= 0 ? &tree->part[at] : NULL;
 }
 
-/* ---- how deep they use one another ---- */
+/* ---- depth of nested parts ---- */
 
 typedef enum { NOT_MEASURED, BEING_MEASURED, MEASURED } Progress;
 
@@ -37,7 +38,7 @@ static int measure_node(Measuring *measuring, const CzNode *node, int level) {
         int here = uses ? 0 : measure_node(measuring, value, level);
         if (part != NULL && measuring->progress[part - measuring->tree->part] == BEING_MEASURED)
             cz_mistake(mistakes, value, NULL, "part '%s' uses itself", part->name);
-        else if (part != NULL) /* one level too deep is not followed, but counts */
+        else if (part != NULL) /* the first level that is too deep counts, but is not followed */
             here = 1 + (level <= CZ_MOST_NESTED ? measure_part(measuring, part, level + 1) : 0);
         if (part != NULL && (here == CZ_MOST_NESTED + 1 || level > CZ_MOST_NESTED))
             cz_mistake(mistakes, value, NULL, "more than %d parts use one another in a chain",
@@ -85,8 +86,8 @@ static const CzPart *find_part(CzReader *reader, const CzTree *tree, const CzNod
     return NULL;
 }
 
-/* Whether a part may be used here: it is not on the way already, and the way is not too long. Both
- * were reported for the parts as written; a setting can make new ones. */
+/* Whether a part may be used here: it does not contain itself and is not nested too deeply. Both
+ * were reported for the parts as written; a setting can cause new cases. */
 static bool may_use(CzReader *reader, const CzPart *part, const CzNode *used,
                     const CzTrail *use_trail) {
     int n_part = 0;

@@ -1,4 +1,4 @@
-/* Walking along paths. */
+/* Follows paths. */
 #include "tree/path.h"
 
 #include <stdarg.h>
@@ -35,11 +35,11 @@ typedef struct {
     char at[CZ_PATH_ROOM]; /* concrete path so far */
 } Walk;
 
-/* A point on the way: how far the path is worked off. */
+/* Progress along the path. */
 typedef struct {
     const CzRecord *record; /* of the mapping, or of the list's items; NULL: not known */
     const CzTrail *trail;
-    int level;    /* segment at hand */
+    int level;    /* present segment */
     bool is_open; /* beyond a * */
 } Step;
 
@@ -49,7 +49,7 @@ static bool is_end(char c) {
     return c == '\0' || c == '.' || c == '[' || c == ']';
 }
 
-/* Reads one segment; the rest of the path, or NULL when it is none. */
+/* Reads one segment; returns the rest of the path, NULL when it is not a segment. */
 static const char *read_segment(Segment *segment, const char *path, const char *start) {
     segment->offset = (int)(path - start);
     if (strncmp(path, "[*]", 3) == 0) {
@@ -101,7 +101,7 @@ static bool read_path(Walk *walk, const char *path) {
     return false;
 }
 
-/* Reports what is wrong at a segment; nothing is put in any more. */
+/* Reports a mistake at a segment; no value is set afterwards. */
 __attribute__((format(printf, 3, 4))) static void refuse(Walk *walk, int level, const char *format,
                                                          ...) {
     const CzNode place = place_of(walk, level);
@@ -112,7 +112,7 @@ __attribute__((format(printf, 3, 4))) static void refuse(Walk *walk, int level, 
     walk->failed = true;
 }
 
-/* What the path has come to. */
+/* Concrete path so far. */
 static const char *here(const Walk *walk) {
     return walk->at[0] != '\0' ? walk->at : "the problem";
 }
@@ -136,7 +136,7 @@ static size_t enter(Walk *walk, const char *name, int index) {
     return before;
 }
 
-/* The value to put in: the setting's own, or a stand-in for a number. */
+/* The value to set: the setting's own, or a stand-in for a number. */
 static const CzNode *value_to_put(Walk *walk) {
     CzMatches *matches = walk->matches;
     walk->n_found++;
@@ -171,7 +171,8 @@ static const CzNode *value_to_put(Walk *walk) {
     return marker;
 }
 
-/* Whether the path ends in the `use` of a record that has one: the record then takes another part.
+/* Whether the path ends in the `use` of a record that has one: the setting then replaces the part
+ * of the record.
  */
 static bool sets_part(const Walk *walk, const CzNode *node, Step step) {
     return step.level == walk->n_segment - 1 &&
@@ -179,7 +180,7 @@ static bool sets_part(const Walk *walk, const CzNode *node, Step step) {
            walk->segment[step.level].kind == SEGMENT_NAME && cz_node_find(node, "use") != NULL;
 }
 
-/* Puts the value under the path's last key. */
+/* Sets the value at the path's last key. */
 static const CzNode *put_value(Walk *walk, const CzNode *mapping, Step step) {
     const char *name = walk->segment[step.level].name;
     const CzNode place = place_of(walk, step.level);
@@ -211,7 +212,7 @@ static void report_unknown(Walk *walk, const CzNode *mapping, Step step) {
     const char *name = walk->segment[step.level].name;
     CzSuggestion suggestion = {0};
     walk->failed = true;
-    if (mapping->is_partial) /* a part is not there, which is reported where it is used */
+    if (mapping->is_partial) /* a missing part is reported where it is used */
         return;
     for (int i = 0; i < mapping->n_entry; i++)
         cz_suggest(&suggestion, name, mapping->entry[i].key->text);
@@ -219,11 +220,11 @@ static void report_unknown(Walk *walk, const CzNode *mapping, Step step) {
         if (step.record->key[i].kind >= CZ_KEY_CHILD)
             cz_suggest(&suggestion, name, step.record->key[i].stem);
     refuse(walk, step.level, "there is no '%s' in %s", name, here(walk));
-    if (strcmp(suggestion.best, name) != 0) /* else it is a key, but not there */
+    if (strcmp(suggestion.best, name) != 0) /* else it is a key that is not in the mapping */
         cz_mistake_suggest(&walk->reader->mistakes, &suggestion);
 }
 
-/* A train that copies another has no vehicles of its own to change. */
+/* Whether a train copies another one, so that it has no vehicles of its own to change. */
 static bool is_copied(Walk *walk, const CzNode *mapping, Step step) {
     const char *copied = cz_node_find_text(mapping, "copy");
     if (!is_record(step.record, "train") || copied == NULL ||
@@ -276,14 +277,14 @@ static const CzNode *walk_mapping(Walk *walk, const CzNode *mapping, Step step) 
                        step.is_open};
     changed->entry[at].value = walk_on(walk, changed->entry[at].value, next);
     walk->at[before] = '\0';
-    if (changed->entry[at].value == &empty) /* nothing was put in */
+    if (changed->entry[at].value == &empty) /* no value was set */
         changed->n_entry--;
     return changed->entry[at].value != NULL ? changed : NULL;
 }
 
 /* ---- items of lists ---- */
 
-/* Name that a path gives an item: its own, or for a vehicle the counted one. */
+/* Name of an item in a path: its own, or for a vehicle the counted one. */
 static const char *name_of_item(Walk *walk, const CzNode *item, const CzRecord *record,
                                 int position, char *text, size_t size) {
     if (is_record(record, "vehicle") && walk->train != NULL) {
@@ -325,7 +326,7 @@ static void report_no_item(Walk *walk, const CzNode *list, Step step) {
     cz_mistake_suggest(&walk->reader->mistakes, &suggestion);
 }
 
-/* Goes on into one item, or puts the value in its place when the path ends there. */
+/* Continues in one item, or replaces it by the value when the path ends there. */
 static const CzNode *walk_item(Walk *walk, const CzNode *item, Step step) {
     if (step.level + 1 < walk->n_segment) {
         step.level++;

@@ -1,4 +1,4 @@
-/* What all steps from files to records share.
+/* Common data of all steps from files to records.
  *
  *   load      files -> one tree: `extends` merged, parts of catalogues gathered
  *   settings  `set:` and --set put into the tree
@@ -8,8 +8,8 @@
  *   rules     what must hold between values
  *
  * The first four are in this folder, the others in src/problem. All of them go on after a mistake,
- * so that one pass reports every mistake. When memory is short they return NULL or leave; the arena
- * knows that a request failed.
+ * so that one pass reports every mistake. Without memory they return NULL or end early; the arena
+ * records that a request failed.
  */
 #ifndef CZ_TREE_READER_H
 #define CZ_TREE_READER_H
@@ -22,10 +22,10 @@ typedef struct CzReader {
     CzArena arena;
     CzSources sources;
     CzMistakes mistakes, warnings;
-    const CzRecord *top;      /* what a problem file holds */
+    const CzRecord *top;      /* record of a problem file */
     const char *share_folder; /* with catalogue/ and profiles/; NULL for none */
     int n_set;                /* values that settings have changed so far */
-    bool has_holes; /* records could not be read, so what is absent may have been written */
+    bool has_holes; /* some records could not be read, so absent values may be in the file */
 } CzReader;
 
 /* A value under a key, for reading it. */

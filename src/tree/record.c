@@ -1,4 +1,4 @@
-/* Looking up in the tables of keys. */
+/* Looks up keys in the tables. */
 #include "tree/record.h"
 
 #include <string.h>

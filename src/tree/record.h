@@ -1,5 +1,5 @@
-/* What a mapping may hold: the types of the tables of keys, and looking up in them. The tables
- * themselves are in problem/keys.h. */
+/* Keys that a mapping may have: the types of the tables of keys, and functions to look up keys. The
+ * tables themselves are in problem/keys.h. */
 #ifndef CZ_TREE_RECORD_H
 #define CZ_TREE_RECORD_H
 
@@ -38,15 +38,15 @@ typedef enum CzPresence {
     CZ_PRESENCE_DEFAULT
 } CzPresence;
 
-/* Whether a search may change a number: never, when it only fits a model to measurements, or when
- * it designs, too. */
+/* Whether a search may change a number: never, only in a fit to measurements, or also in a
+ * design. */
 typedef enum CzVariation { CZ_VARIATION_DATA, CZ_VARIATION_FITS, CZ_VARIATION_VARIES } CzVariation;
 
-/* Where a number usually lies. */
+/* Usual range of a number. */
 typedef struct CzUsual {
     const char *unit; /* suffix; NULL for no range */
     double lo, hi;    /* in that unit */
-    bool is_typed;    /* of numbers that are typed in that unit only */
+    bool is_typed;    /* applies only to numbers that are typed in that unit */
 } CzUsual;
 
 /* One key of a record. */
@@ -58,7 +58,7 @@ typedef struct CzKey {
     size_t offset;                /* of the field in its record [byte] */
     CzDimension dimension;        /* number: its own; table: of x */
     double lo, hi;                /* number and count: range [SI] */
-    CzUsual usual[2];             /* number: the second only beside the first */
+    CzUsual usual[2];             /* number: the second only with the first */
     double absent;                /* number, count, choice, flag: value when absent */
     CzVariation variation;        /* number: whether a search may change it */
     const CzWordSet *words;       /* choice: what it may be */
@@ -77,7 +77,7 @@ typedef struct CzRecord {
 
 /* Key of a record by its stem; NULL when there is none. */
 const CzKey *cz_record_key(const CzRecord *record, const char *stem);
-/* Key that a key as typed names, with its unit for numbers; NULL when there is none. */
+/* The key for a typed one, with its unit for numbers; NULL when there is none. */
 const CzKey *cz_record_match(const CzRecord *record, const char *typed, const CzUnit **unit);
 
 #endif

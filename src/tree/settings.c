@@ -1,4 +1,4 @@
-/* Gathering settings, and putting them in by their rank. */
+/* Collects settings, and applies them by rank. */
 #include "tree/settings.h"
 
 #include <stdlib.h>
@@ -77,7 +77,8 @@ static int gather_options(CzReader *reader, int n_set, const char *const *set, C
     return n_setting;
 }
 
-/* A value that the record `set` has twice, in two units: the later one alone would act. */
+/* Rejects a value that the record `set` has twice, in two units, because only the later one would
+ * have an effect. */
 static void refuse_twice(CzReader *reader, const CzNode *own, int i) {
     for (int k = 0; k < i; k++)
         if (cz_key_same_stem(own->entry[k].key->text, own->entry[i].key->text)) {
@@ -120,8 +121,8 @@ const CzSetting *cz_settings_gather(CzReader *reader, const CzNode *root, int n_
 
 enum { LAST_RANK = 48 };
 
-/* When a setting takes its turn: 0 for parts without parts in them, more the deeper parts are
- * nested in a part, LAST_RANK for what is no part. */
+/* Rank by which a setting is applied: 0 for parts without nested parts, higher with the nesting
+ * depth of a part, LAST_RANK outside of parts. */
 static int rank_of(const CzTree *tree, const char *path) {
     if (strncmp(path, "parts.", 6) != 0)
         return LAST_RANK;

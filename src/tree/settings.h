@@ -1,8 +1,9 @@
-/* Values put in by path: `set:` of the file and --set of the command line.
+/* Values set by path: `set:` of the file and --set of the command line.
  *
- * A setting means what typing the value at that place would mean. So settings of parts come first,
- * those of a part before those of the parts that use it, and what a vehicle says for itself goes
- * before its part, whatever the order of the settings; among settings of one place the later wins.
+ * A setting has the same effect as typing the value at that place. So settings of parts are applied
+ * first, those of a part before those of the parts that use it, and the values of a vehicle
+ * override those of its part, whatever the order of the settings; of several settings at one place
+ * the last applies.
  */
 #ifndef CZ_TREE_SETTINGS_H
 #define CZ_TREE_SETTINGS_H
@@ -13,15 +14,15 @@ typedef struct CzSetting {
     const char *path;
     const CzNode *place; /* of the path */
     const CzNode *value;
-    CzMatches *matches; /* stand-ins for numbers are put in, and this gets their places; NULL: the
-                           value is put in */
+    CzMatches *matches; /* receives the places of stand-ins that are set instead of the value; NULL:
+                           the value is set */
 } CzSetting;
 
 /* Settings of the file's `set:`, then those of the command line, "path=value" (n_set). */
 const CzSetting *cz_settings_gather(CzReader *reader, const CzNode *root, int n_set,
                                     const char *const *set, int *n_setting);
 
-/* The tree with all settings put in. */
+/* The tree with all settings applied. */
 CzTree cz_settings_apply(CzReader *reader, const CzTree *tree, const CzSetting *setting,
                          int n_setting);
 

@@ -1,4 +1,4 @@
-/* Writing trains out. */
+/* Writes trains out. */
 #include "tree/trains.h"
 
 #include <stdio.h>
@@ -10,13 +10,13 @@
 #include "crushzone/names.h"
 #include "tree/merge.h"
 
-/* Room for the name of a copy's vehicle, made of two. A longer name is refused like one that is cut
- * to this. */
+/* Space for the name of a copy's vehicle, made of two names. A longer name is rejected like one cut
+ * to this length. */
 enum { NAME_ROOM = 2 * CZ_MOST_NAME + 2, MOST_REPEATS = 200, DEEPEST_COPY = 8 };
 
 /* One vehicle of a train. */
 typedef struct {
-    const CzNode *node; /* with its parts taken */
+    const CzNode *node; /* with its parts inserted */
     const CzTrail *trail;
     const CzNode *name_place;
     char name[NAME_ROOM];
@@ -50,7 +50,7 @@ int cz_vehicle_repeat(const CzNode *vehicle) {
     return n >= 1 && n <= MOST_REPEATS ? (int)n : 1;
 }
 
-/* A name counted on by k; digits at its end are the number to count from. */
+/* A name with its number increased by k; the number is the digits at its end. */
 static void count_on(char *text, size_t size, const char *name, int k) {
     size_t n = strlen(name);
     while (n > 0 && name[n - 1] >= '0' && name[n - 1] <= '9' && strlen(name) - n < 6)
@@ -71,7 +71,7 @@ void cz_vehicle_name(char *text, size_t size, const CzNode *vehicle, const char 
         snprintf(text, size, "%s", given);
 }
 
-/* ---- names for an overlay to refer to ---- */
+/* ---- names to which an overlay can refer ---- */
 
 static const CzNode *name_vehicle(CzArena *arena, const CzNode *vehicle, const char *train,
                                   int position) {
@@ -138,7 +138,7 @@ static int read_repeat(CzReader *reader, const CzNode *node, const CzTrail *trai
     return n_repeat;
 }
 
-/* Room for the vehicles of a train; false when there are too many. */
+/* Memory for the vehicles of a train; false when there are too many. */
 static bool make_room(Trains *trains, Train *train, int n_vehicle, const CzNode *place) {
     if (trains->n_vehicle + n_vehicle > CZ_MOST_VEHICLES) {
         cz_mistake(&trains->reader->mistakes, place, NULL, "the trains have more than %d vehicles",
@@ -193,7 +193,7 @@ static void turn_round(Train *train) {
 }
 
 /* Names of a copy: `names` are those of the original along +x. */
-static void letter_anew(Train *train, const Train *original) {
+static void rename_vehicles(Train *train, const Train *original) {
     const size_t n = strlen(original->name);
     bool all_lettered = true;
     for (int i = 0; i < original->n_vehicle; i++)
@@ -255,7 +255,7 @@ static void copy_vehicles(Trains *trains, Train *train, int depth) {
 static void write_out_train(Trains *trains, Train *train, int depth) {
     CzReader *reader = trains->reader;
     const CzEntry *list = cz_node_find(train->node, "vehicles");
-    if (train->n_vehicle > 0) /* done before, for a copy */
+    if (train->n_vehicle > 0) /* done already, for a copy */
         return;
     if (train->copy != NULL && list != NULL) {
         cz_mistake(&reader->mistakes, list->key, cz_entry_trail(list, train->trail),
@@ -270,7 +270,7 @@ static void write_out_train(Trains *trains, Train *train, int depth) {
     if (read_reversed(reader, train->node, train->trail))
         turn_round(train);
     if (train->original != NULL)
-        letter_anew(train, train->original);
+        rename_vehicles(train, train->original);
 }
 
 /* ---- nodes ---- */
@@ -281,7 +281,8 @@ static const char *turned_key(const char *key) {
     return strcmp(key, "rear") == 0 ? "front" : key;
 }
 
-/* The mapping of one vehicle: its name, then its keys, front and rear swapped when it is turned. */
+/* The mapping of one vehicle: its name, then its keys, front and rear swapped when it is
+ * reversed. */
 static const CzNode *vehicle_node(CzReader *reader, const Vehicle *vehicle) {
     CzArena *arena = &reader->arena;
     if (vehicle->node->kind != CZ_NODE_MAPPING)
@@ -308,7 +309,7 @@ static const CzNode *vehicle_node(CzReader *reader, const Vehicle *vehicle) {
     return node;
 }
 
-/* The list of a train's vehicles, or a node that is passed over when its mistake was reported. */
+/* The list of a train's vehicles, or a node that is skipped because its mistake was reported. */
 static const CzNode *vehicles_node(CzReader *reader, const Train *train, const CzNode *place) {
     CzNode *list = cz_arena_allocate(&reader->arena, 1, sizeof *list);
     CzEntry *entry = cz_arena_allocate(&reader->arena, (size_t)train->n_vehicle, sizeof *entry);
@@ -328,7 +329,7 @@ static const CzNode *vehicles_node(CzReader *reader, const Train *train, const C
     return list;
 }
 
-/* The mapping of one train without what was worked off. */
+/* The mapping of one train without the keys that were written out. */
 static const CzNode *train_node(CzReader *reader, const Train *train) {
     const CzEntry *own = cz_node_find(train->node, "vehicles");
     const bool is_copy = own == NULL && train->copy != NULL;

@@ -1,10 +1,10 @@
 /* Trains written out: `copy`, `repeat` and `reversed` become plain vehicles with names.
  *
- * Vehicles are listed along +x. A repeated vehicle counts its name on (A2 three times: A2, A3, A4).
- * A train that is reversed has its last vehicle first and every vehicle turned. A copy has the
- * other's vehicles; names that begin with the other train's name are lettered anew along +x, so
- * that the copy of A1 to A6 is B1 to B6 whichever way round; other names get the train's name in
- * front.
+ * Vehicles are listed along +x. The names of a repeated vehicle are numbered on (A2 three times:
+ * A2, A3, A4). A train that is reversed has its last vehicle first and every vehicle reversed. A
+ * copy has the other's vehicles; names that begin with the other train's name are replaced along
+ * +x, so that the copy of A1 to A6 is B1 to B6 in either direction; other names are prefixed with
+ * the train's name.
  */
 #ifndef CZ_TREE_TRAINS_H
 #define CZ_TREE_TRAINS_H

@@ -171,6 +171,8 @@ check "remains of dead processes are cleared, and nothing else" made_up
 stopped() { # while a process has locked its temporary folder, no other process clears it
     # shellcheck disable=SC2086
     "$C" optimise small.yaml --evaluations 100000 -o busy -q >o1 2>e1 & busy=$!
+    tries=0
+    until [ -n "$(leftovers)" ] || [ $tries -ge 100 ]; do sleep 0.1 && tries=$((tries + 1)); done
     sleep 0.3
     exits 0 "$C" run small.yaml -o other -q
     kill -INT $busy

@@ -27,7 +27,7 @@ static void only_a_search_checks_bounds(void **state) {
     cz_evaluation_free(&evaluation);
     assert_int_equal(cz_optimise_check(made.evaluator, NULL, &error), CZ_STATUS_INPUT);
     assert_string_equal(error.message,
-                        "the starting value 300.0000001 of 'parts.tube.stages[0].stroke_mm' lies "
+                        "the starting value 300.0000001 of 'parts.tube.stages[0].stroke_mm' is "
                         "outside its bounds, 100 to 300 mm");
     assert_int_equal(error.line, 30);
     assert_int_equal(cz_optimise(made.evaluator, NULL, &made.outcome, &error), CZ_STATUS_INPUT);

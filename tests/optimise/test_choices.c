@@ -158,7 +158,7 @@ static void invalid_choices_are_refused_by_name(void **state) {
     refused("{path: parts.head.coupler.buffer, choices: [short, long, same-as-long]}",
             "gives 'long' and 'same-as-long' the same values");
     refused("{path: parts.head.coupler.buffer, choices: [two-stage, long]}",
-            "the buffer of the file at 'parts.head.coupler.buffer' is none of the choices");
+            "the buffer of the file at 'parts.head.coupler.buffer' is not one of the choices");
     refused(HEAD ", {path: \"parts.head.coupler.buffer.stages[0].force_kN\", min: 300, max: 500}",
             "is driven by two variables");
     refused("{path: \"parts.head.coupler.buffer.stages[0].force_kN\", min: 300, max: 500}, " HEAD,

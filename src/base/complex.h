@@ -36,7 +36,7 @@ static inline double cz_complex_size(CzComplex a) {
     return sqrt(cz_complex_square_size(a));
 }
 
-/* 1 / a, for sizes whose square neither overflows nor vanishes. */
+/* 1 / a, for |a| whose square neither overflows nor underflows. */
 static inline CzComplex cz_complex_inverse(CzComplex a) {
     const double square = cz_complex_square_size(a);
     return (CzComplex){a.re / square, -a.im / square};

@@ -1,7 +1,7 @@
 /* Text that grows in memory, and a stream into it.
  *
  * open_memstream drops output for which there is no memory, and neither the stream nor closing it
- * reports that. Here a failure is remembered.
+ * reports that. Here a failure is stored.
  */
 #ifndef CZ_BASE_MEMORY_TEXT_H
 #define CZ_BASE_MEMORY_TEXT_H

@@ -23,7 +23,7 @@ void cz_help_write_topic(CzTopic topic);
 extern const CzHelpEntry cz_verdict_rules[];
 extern const char cz_verdict_remark[];
 
-/* Codes that commands end with, up to one without a name. */
+/* Exit codes of commands, up to one without a name. */
 extern const CzHelpEntry cz_exit_codes[];
 
 /* Writes a text from column `indent` on, broken between words; the line is at that column. */

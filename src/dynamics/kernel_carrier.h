@@ -51,7 +51,7 @@ static inline void cz_put_force(CzPlane *on, size_t i, CzPoint at, CzPush push) 
     on->pitch[i] += at.arm_x * push.z - at.arm_z * push.x + push.pitch;
 }
 
-/* The same where a share goes to the end mass and the rest to the body: one of them is 0. */
+/* The same with a share of the force on the end mass and the rest on the body; one of them is 0. */
 static inline void cz_put_shared(CzPlane *end, CzPlane *body, size_t i, CzPush at_centre,
                                  double on_end) {
     const double x = on_end * at_centre.x, z = on_end * at_centre.z,

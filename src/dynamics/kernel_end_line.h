@@ -15,7 +15,7 @@ typedef struct {
     CzRow mass_arm_x, mass_arm_z; /* from that of the end mass */
 } EndLine;
 
-/* Forces by its laws. */
+/* Forces of its laws. */
 typedef struct {
     _Alignas(64) CzRow across; /* guidance, downward on the end mass [N] */
     CzRow moment;              /* against its pitch [N m] */

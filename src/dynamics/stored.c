@@ -196,7 +196,7 @@ static double axle_guidance_stored(const CzDynamics *dynamics, size_t lane) {
     return stored;
 }
 
-/* Integral of K d^1.5 - N_0 over the approach d, from that at rest on. */
+/* Integral of K d^1.5 - N_0 over the approach d, starting at rest. */
 static double wheels_stored(const CzDynamics *dynamics, size_t lane) {
     const CzBlock *d = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;
@@ -261,7 +261,7 @@ static double area_of_path(const CzCurveLanes *curve, size_t lane, double from, 
     return area;
 }
 
-/* Energy that a crush zone gives back from shortening x, its largest being `largest`: along the
+/* Energy that a crush zone returns from shortening x, its largest being `largest`: along the
  * unloading path, which is never above the backbone, and on the stop beyond the last stage. */
 static double crush_stored(const CzCurveLanes *curve, size_t lane, const CzVehicleEndLaw *law,
                            double x, double largest) {
@@ -285,7 +285,7 @@ static double crush_stored(const CzCurveLanes *curve, size_t lane, const CzVehic
     return below + above + stop;
 }
 
-/* Work of loading to a largest shortening less what unloading from there gives back. */
+/* Work of loading to a largest shortening less the energy returned by unloading from there. */
 static double crush_lost(const CzCurveLanes *curve, size_t lane, const CzVehicleEndLaw *law,
                          double largest) {
     const double held = cz_smaller(largest, curve->usable[lane]);

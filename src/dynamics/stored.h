@@ -31,7 +31,7 @@ typedef struct CzStored {
     CzCrushEnergy end[2]; /* crush zones of ends with mass */
     double guide[2];      /* guidance of an end mass across the axis */
     double fold[2];       /* its hinge */
-    double slide;         /* end stop of a buffer stop that was dragged as far as it goes */
+    double slide;         /* end stop of a buffer stop at the end of its travel */
 } CzStored;
 
 /* Fills in what a lane stores now. `stored` is zero at first and keeps what was found before. */

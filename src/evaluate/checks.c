@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Margins of a yes or no in a search. A step gives a search no direction; the continuous checks
- * next to it do. */
+/* Margins of a yes or no in a search. A step has no slope for a search; the continuous checks next
+ * to it have. */
 static const double satisfied_flag = 1, broken_flag = -0.01;
 
 /* A margin below this is rounding error and counts as 0. */

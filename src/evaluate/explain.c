@@ -367,7 +367,7 @@ static int vehicle_at(const CzRunSummary *run, const char *where) {
     return 0;
 }
 
-/* Takes the run with the smallest climbing margin out of an evaluation. */
+/* Removes the run with the smallest climbing margin from an evaluation and keeps it. */
 static CzStatus choose_run(const CzEvaluator *evaluator, CzEvaluation *evaluation, Search *search,
                            CzExplanation *explanation, CzError *error) {
     int chosen = -1, chosen_run = -1, run = 0;

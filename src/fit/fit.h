@@ -112,7 +112,7 @@ double cz_fit_stiffness_for(CzFit *fit, const CzStop *stop, double stiffness);
 
 /* Ends a member where its stop begins, so that the rise along the stop has the area and the last
  * force of the curve. The member's stages are those of its part of the curve before the onset,
- * which gets the length of the member. */
+ * whose length becomes that of the member. */
 CZ_MUST_CHECK CzStatus cz_fit_place_stop(CzFit *fit, const CzStop *stop, CzStaged *staged,
                                          CzBranch *part, CzError *error);
 

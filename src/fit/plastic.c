@@ -14,7 +14,7 @@
 #define FIRST_FROM 0.03 /* part of the stroke whose mean is the first force (ours) */
 #define FIRST_TO 0.13
 #define WITHOUT_FORCE 0.2 /* of the mean force: a smaller force counts as zero (ours) */
-#define RISE_LOW 0.2      /* part of the rise that gives the stiffness, of the mean force (ours) */
+#define RISE_LOW 0.2      /* lower end of the rise for the stiffness, of the mean force (ours) */
 #define RISE_HIGH 0.8
 #define NO_RISE 2e-4 /* of the stroke: a rise over less is a jump without a stiffness (ours) */
 

@@ -51,8 +51,8 @@ int cz_staged_bends(const CzStaged *staged, double at[CZ_MOST_BENDS]);
  * such forces give the energy. */
 double cz_staged_solve(CzStaged *staged, const CzBranch *branch, double energy);
 
-/* Moves breaks between stages (and the length of a trigger) until the integral no longer falls.
- * No stage gets shorter than `shortest`. Returns the integral. */
+/* Moves breaks between stages (and the length of a trigger) until the integral no longer falls. No
+ * stage becomes shorter than `shortest`. Returns the integral. */
 double cz_staged_refine(CzStaged *staged, const CzBranch *branch, double energy, double shortest);
 
 /* Integral of the squared difference that counts as zero because of rounding. */

@@ -1,4 +1,4 @@
-/* Building the model of one scenario: its cars along +x, its numbers, its step. */
+/* Builds the model of one scenario: its cars along +x, parameters and time step. */
 #include "base/error.h"
 #include "model/curve_sizes.h"
 #include "model/own_design.h"
@@ -90,7 +90,7 @@ static bool has_stops(const CzSuspension *suspension) {
     return !isnan(suspension->bump_gap) && !isnan(suspension->lift_gap);
 }
 
-/* A train's brake with the ratio that the scenario gives it. */
+/* A train's brake with the brake ratio of the scenario. */
 static void set_brake(const CzModel *model, CzCar *car, const CzTrain *train) {
     const double own =
         car->train == 0 ? model->scenario->brake_ratio : model->scenario->partner_brake_ratio;
@@ -212,8 +212,8 @@ static CzStatus fit_receptances(CzModel *model, const CzVehicle *vehicles, CzTra
     return CZ_OK;
 }
 
-/* A problem on `receptance` is refused when the track cannot be fitted; searches of other tracks
- * then use the track of the file. */
+/* A problem with track `receptance` is rejected when the track cannot be fitted; searches with
+ * other tracks then use the track of the file. */
 static CzStatus fit_if_possible(CzModel *model, const CzVehicle *vehicles, CzTrackModes *modes,
                                 CzError *error) {
     CzError failure = {0};
@@ -264,7 +264,7 @@ static void choose_hold(CzModel *model) {
             model->hold = fmax(model->hold, 1.0 / model->properties[car].pitch_frequency);
 }
 
-/* Properties and bounds follow from the lanes of the problem's own design. */
+/* Computes properties and bounds from the lanes of the problem's own design. */
 static CzStatus look_at_own_design(CzModel *model, const CzVehicle *vehicles, CzArena *scratch,
                                    CzError *error) {
     CzLanes *lanes = cz_model_lanes(model, 1, scratch);
@@ -314,7 +314,7 @@ void cz_model_free(CzModel *model) {
     free(model);
 }
 
-/* ---- questions ---- */
+/* ---- access ---- */
 
 int cz_model_n_vehicle(const CzModel *model) {
     return model->n_car;

@@ -1,4 +1,4 @@
-/* How many breakpoints each curve of the lanes needs: counted over all cars and both ends. */
+/* Number of breakpoints of each curve in the lanes: the largest over all cars and both ends. */
 #include "model/curve_sizes.h"
 
 #include "model/fill.h"

@@ -1,4 +1,4 @@
-/* How many breakpoints each curve of the lanes needs. */
+/* Number of breakpoints of each curve in the lanes. */
 #ifndef CZ_MODEL_CURVE_SIZES_H
 #define CZ_MODEL_CURVE_SIZES_H
 

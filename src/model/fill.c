@@ -1,4 +1,4 @@
-/* Filling the lanes of one design: refusals, curves of devices, and the loop over the cars. */
+/* Fills the lanes of one design: error messages, curves of devices, and the loop over the cars. */
 #include "model/fill.h"
 
 #include "base/error.h"
@@ -27,7 +27,7 @@ CzStatus cz_fill_refuse(const CzFill *fill, CzPartName part, const void *field, 
     return CZ_STATUS_INPUT;
 }
 
-/* Puts a curve into a lane; fails when it has more breakpoints than the problem's own. */
+/* Copies a curve to a lane; fails when it has more breakpoints than the problem's own. */
 static CzStatus fill_curve(const CzFill *fill, CzPartName part, const void *field, CzCurveId id,
                            const CzBreakpoints *breakpoints) {
     CzCurveLanes *curve = &fill->lanes->curve[id];
@@ -87,7 +87,7 @@ static CzStatus check_table(const CzFill *fill, CzPartName part, const CzTable *
     return CZ_OK;
 }
 
-/* Stages or a curve, one of them; a dynamic curve without a further rise with the rate. */
+/* Either stages or a curve; a dynamic curve without a further rate effect. */
 static CzStatus check_strength(const CzFill *fill, CzPartName part, const void *field,
                                const CzStage *stage, int n_stage, const CzTable *table,
                                double rise) {
@@ -108,7 +108,8 @@ static CzStatus check_trigger(const CzFill *fill, CzPartName part, const double 
     return CZ_OK;
 }
 
-/* A buffer's force must not fall, nor rise faster than it falls between its two curves. */
+/* A buffer's force must not fall, nor rise more steeply than the transition between its two
+ * curves. */
 static CzStatus check_rise(const CzFill *fill, CzPartName part, const CzBuffer *buffer) {
     double force = buffer->preload;
     for (int i = 0; i < buffer->n_stages; i++) {

@@ -1,4 +1,4 @@
-/* Filling the lanes of one design: common declarations. */
+/* Common declarations for filling the lanes of one design. */
 #ifndef CZ_MODEL_FILL_H
 #define CZ_MODEL_FILL_H
 
@@ -14,7 +14,7 @@ static inline const CzEnd *cz_end_of(const CzVehicle *vehicle, int end) {
     return end == CZ_REAR ? &vehicle->rear : &vehicle->front;
 }
 
-/* Masses and static loads of one car of a design, and where its foremost planes lie. */
+/* Masses and static loads of one car of a design, and the places of its foremost planes. */
 typedef struct CzStatics {
     double mass;              /* total with payload and absorbers [kg] */
     double weight;            /* of it [N] */
@@ -36,11 +36,11 @@ typedef struct CzFill {
     CzError *error;
 } CzFill;
 
-/* Something that a sentence names: "car A1, front coupler tube". */
+/* Name of a part in a message: "car A1, front coupler tube". */
 typedef struct CzPartName {
     int car;
     int end;  /* -1: the car as a whole */
-    int lane; /* car in whose lane its numbers are: at interfaces the one behind */
+    int lane; /* car in whose lane its parameters are: at interfaces the one behind */
     const char *what;
 } CzPartName;
 
@@ -66,7 +66,7 @@ CZ_MUST_CHECK CzStatus cz_fill_anti_climber(const CzFill *fill, CzPartName part,
 CZ_MUST_CHECK CzStatus cz_fill_end(const CzFill *fill, CzPartName part, const CzEnd *end,
                                    CzCurveId id);
 
-/* Numbers of a crush zone beside its curve. */
+/* Parameters of a crush zone in addition to its curve. */
 void cz_fill_crush(CzCrushRows *rows, size_t i, const CzEnd *end);
 
 /* statics.c */
@@ -82,7 +82,7 @@ static inline double cz_second_unloading(const CzEnd *end) {
                                                   : end->second_unloading_stiffness;
 }
 
-/* Friction jaws of a buffer stop; NULL of a vehicle without. */
+/* Friction jaws of a buffer stop; NULL for other vehicles. */
 static inline const CzSlide *cz_slide_of(const CzVehicle *vehicle) {
     if (vehicle->rear.given && vehicle->rear.slide.given)
         return &vehicle->rear.slide;

@@ -1,4 +1,4 @@
-/* Numbers of one car: inertia, crush zones, running gear, wheels and rails, start velocities.
+/* Parameters of one car: inertia, crush zones, running gear, wheels and rails, start velocities.
  *
  *   Hertz constant of a wheelset (two wheels):   H = 2 G^-1.5            N = H d^1.5
  *     G = 3.86 R^-0.115 1e-8 (worn), 4.57 R^-0.149 1e-8 (conical) [m/N^(2/3)]   Zhai, Vehicle-Track
@@ -12,7 +12,7 @@
 #define LOCKED_FREQUENCY 600.0    /* of a locked end guidance [rad/s] (ours) */
 #define GUIDE_DAMPING 0.1         /* damping ratio of the end guidance (ours) */
 #define HELD_AXLE_FREQUENCY 300.0 /* of a braked wheelset in torsion [rad/s] (ours) */
-#define CONTACT_LENGTH 0.006      /* that carries tangential deflection away [m] (ours) */
+#define CONTACT_LENGTH 0.006      /* that removes tangential deflection by rolling [m] (ours) */
 
 /* base^exponent for 0 <= exponent < 1 from square roots alone: the same bits on every machine. */
 static double power(double base, double exponent) {
@@ -169,7 +169,7 @@ static Friction friction_of(const CzModel *model) {
     return (Friction){model->friction, model->friction * left};
 }
 
-/* Axles are braked from the front of the car; the last one gets the rest of the share. */
+/* Axles are braked from the front of the car; the last one has the rest of the share. */
 static double braked_part(const CzBrake *brake, int axle) {
     const double n_braked = brake == NULL ? 0.0 : 4.0 * brake->axle_share;
     return fmin(fmax(n_braked - (3 - axle), 0.0), 1.0);

@@ -1,4 +1,4 @@
-/* Numbers of one interface: places of the two ends at t = 0, and their parts.
+/* Parameters of one interface: places of the two ends at t = 0, and their parts.
  *
  *   distance of a pair of parts = distance of the foremost planes + gap_A + gap_B
  *
@@ -34,18 +34,18 @@ typedef struct Side {
     const CzEnd *end;
     Part part[N_KIND]; /* the face is an anti-climber's where there is one, else the bare end's */
     double plane;      /* foremost plane from the body's centre of gravity, outwards [m] */
-    double sign;       /* of outwards along x */
+    double sign;       /* direction of outwards along x */
     double offset;     /* height offset of the car [m] */
 } Side;
 
 typedef struct Pair {
     const CzFill *fill;
-    int lane;           /* car in whose lane the numbers are */
+    int lane;           /* car in whose lane the parameters are */
     CzParameters *rows; /* of its block */
     size_t i;           /* its place there */
     Side side[2];
     bool has[N_KIND];
-    bool tilts;      /* a car that moves up and down meets one that can move */
+    bool tilts;      /* one car can move vertically, and the other one is not fixed */
     double distance; /* of the foremost planes at t = 0 [m] */
 } Pair;
 
@@ -92,7 +92,7 @@ static bool both_have(const Pair *pair, Kind kind) {
     return pair->side[CZ_SIDE_A].part[kind].is_there && pair->side[CZ_SIDE_B].part[kind].is_there;
 }
 
-/* Parts pair when both sides have them, or one has and the other is fixed. */
+/* Parts act as a pair when both sides have them, or one has them and the other is fixed. */
 static bool pairs(const Pair *pair, Kind kind) {
     const Side *a = &pair->side[CZ_SIDE_A], *b = &pair->side[CZ_SIDE_B];
     return both_have(pair, kind) || (a->part[kind].is_there && b->is_fixed) ||
@@ -126,7 +126,7 @@ static Heights heights_of(const Pair *pair, Kind kind) {
     return heights;
 }
 
-/* Where the parts of a kind meet; on the end masses, or on bodies without them. */
+/* Contact points of the parts of a kind: on the end masses, or on bodies without them. */
 static void fill_contact(const Pair *pair, Kind kind, CzPairRows *contact) {
     const Heights heights = heights_of(pair, kind);
     for (int which = CZ_SIDE_A; which <= CZ_SIDE_B; which++) {

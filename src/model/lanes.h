@@ -1,4 +1,4 @@
-/* The numbers that a step reads: law parameters, curves, masses and start velocities, in lanes.
+/* The data that a step reads: law parameters, curves, masses and start velocities, in lanes.
  *
  * Lane of car c of design d is c * n_design + d. Lanes are in blocks of CZ_LANE_BLOCK, and there
  * are blocks enough for reading one car beyond the last; arrays of curves are [quantity][lane] with
@@ -23,7 +23,7 @@ typedef struct CzCurveNames {
     char end[2];         /* backbone of the rear and the front crush zone over its shortening */
     char buffer[2];      /* loading curve of the coupler's buffer over its stroke, side A and B */
     char tube[2];        /* strength of the tube over its plastic stroke, trigger included */
-    char second_tube[2]; /* the same */
+    char second_tube[2]; /* likewise */
     char face[2];        /* strength of the anti-climber; missing: plastic */
     char massless[2];    /* backbone of a crush zone without end mass; missing: spring */
     char side_buffer[2]; /* loading curve of the side buffers of one side */

@@ -13,8 +13,8 @@ static double drawn_half(const CzModel *model, int car) {
     return model->car[car].model == CZ_MODEL_FIXED ? 1.0 : 10.0;
 }
 
-/* Distance of an end's face from the body's centre of gravity, outwards. Without a length the
- * face's arm starts at the foremost plane instead. */
+/* Distance of an end's face from the body's centre of gravity, outwards. For a vehicle without a
+ * length the face's arm starts at the foremost plane instead. */
 static double face(const CzModel *model, const CzVehicle *vehicles, const CzPairRows *contact,
                    int interface, int side) {
     const int place = interface + side;

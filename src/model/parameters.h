@@ -1,10 +1,10 @@
 /* Law parameters and geometry of the lanes. [SI]
  *
- * A lane is one car of one design. Parameters of an interface are in the lane of its rear car:
- * side 0 (A) is the front end of that car, side 1 (B) the rear end of the car ahead. Ends and
- * bogies are counted rear first, axles from the rear. Positions of material points are seen from
- * the centre of gravity of the body that carries them: _x forward, _z up. Parameters of things that
- * a car lacks are zero unless a neutral value is named; "never" is CZ_NEVER.
+ * A lane is one car of one design. Parameters of an interface are in the lane of its rear car: side
+ * 0 (A) is the front end of that car, side 1 (B) the rear end of the car ahead. Ends and bogies are
+ * counted rear first, axles from the rear. Positions of material points are seen from the centre of
+ * gravity of the body that carries them: _x forward, _z up. Parameters of missing parts are zero
+ * unless another value is given here, such as CZ_NEVER.
  */
 #ifndef CZ_MODEL_PARAMETERS_H
 #define CZ_MODEL_PARAMETERS_H
@@ -25,14 +25,14 @@ typedef struct CzStrutRows {
 
 /* Crush zone; its backbone is a curve (CzCurveNames). */
 typedef struct CzCrushRows {
-    CzRow unloading;        /* first unloading stage [N/m]; never without */
+    CzRow unloading;        /* first unloading stage [N/m]; CZ_NEVER if none */
     CzRow share;            /* of the peak force at which the second one begins [-] */
-    CzRow second_unloading; /* second unloading stage [N/m]; never without */
+    CzRow second_unloading; /* second unloading stage [N/m]; CZ_NEVER if none */
     CzRow tension;          /* stiffness that holds an end mass on its body in tension [N/m] */
     CzRow damping;          /* [N s/m] */
 } CzCrushRows;
 
-/* End mass against the body. */
+/* Connection of an end mass to the body. */
 typedef struct CzEndRows {
     CzRow x;      /* end mass from the body's centre of gravity, negative at the rear [m] */
     CzRow body_z; /* crush height less body cg height [m] */
@@ -42,19 +42,19 @@ typedef struct CzEndRows {
     struct {
         CzRow stiffness; /* guidance; stiff when locked [N m/rad] */
         CzRow damping;   /* [N m s/rad] */
-        CzRow moment;    /* plastic hinge moment [N m]; never when locked */
+        CzRow moment;    /* plastic hinge moment [N m]; CZ_NEVER when locked */
     } fold_pitch;
 } CzEndRows;
 
-/* Vertical suspension; the static loads of its springs are beside it. */
+/* Vertical suspension; the static loads of its springs are separate. */
 typedef struct CzSuspensionRows {
     CzRow stiffness;      /* [N/m] */
     CzRow damping;        /* [N s/m] */
-    CzRow blow_off_rate;  /* rate at which the relief valve opens [m/s]; never without */
+    CzRow blow_off_rate;  /* rate at which the relief valve opens [m/s]; CZ_NEVER if none */
     CzRow damping_beyond; /* damper slope beyond that rate [N s/m] */
-    CzRow bump_gap;       /* [m]; never without a stop */
+    CzRow bump_gap;       /* [m]; CZ_NEVER without a stop */
     CzRow bump_stiffness; /* [N/m] */
-    CzRow lift_gap;       /* [m]; never without a stop */
+    CzRow lift_gap;       /* [m]; CZ_NEVER without a stop */
     CzRow lift_stiffness; /* [N/m] */
 } CzSuspensionRows;
 
@@ -65,7 +65,7 @@ typedef struct CzWheelRows {
     CzRow indentation[4];  /* at rest: (static wheelset load / hertz)^(2/3) [m] */
     CzRow creep_stiffness; /* tangential contact stiffness: friction * static axle load / (peak
                               creepage * creep_length) [N/m] */
-    CzRow creep_length;    /* contact length over which tangential deflection is carried away; 0.006
+    CzRow creep_length;    /* contact length over which rolling removes tangential deflection; 0.006
                               (ours); 1 without wheels [m] */
     CzRow friction_peak;
     CzRow friction_sliding;
@@ -78,25 +78,25 @@ typedef struct CzWheelRows {
 
 /* Drag of the track on a car without running gear. */
 typedef struct CzDragRows {
-    CzRow brake;         /* brake force at rest: the lesser of brakes and peak friction [N] */
-    CzRow brake_sliding; /* the same at large speed: less where the wheels lock [N] */
-    CzRow rolling;       /* rolling resistance [N] */
-    CzRow slide;         /* friction jaws of a buffer stop [N] */
-    CzRow slide_length;  /* travel of the jaws until the buffer stop reaches its end stop [m]; never
-                            without */
+    CzRow brake;           /* brake force at rest: the lesser of brakes and peak friction [N] */
+    CzRow brake_sliding;   /* the same at large speed: less where the wheels lock [N] */
+    CzRow rolling;         /* rolling resistance [N] */
+    CzRow slide;           /* friction jaws of a buffer stop [N] */
+    CzRow slide_length;    /* travel of the jaws until the buffer stop reaches its end stop [m];
+                              CZ_NEVER if none */
     CzRow slide_stiffness; /* beyond it [N/m] */
 } CzDragRows;
 
 /* Two opposite points, from the centres of gravity of their carriers. */
 typedef struct CzPairRows {
     CzRow x[2], z[2]; /* x of side B is negative [m] */
-    CzRow distance;   /* along the track at t = 0 [m]; never without */
+    CzRow distance;   /* along the track at t = 0 [m]; CZ_NEVER if none */
     CzRow rise;       /* height of B over A at t = 0, offsets included [m] */
 } CzPairRows;
 
 /* Buffers of one side, all devices together. */
 typedef struct CzBufferRows {
-    CzRow transition;     /* [N/m]; never for a missing buffer */
+    CzRow transition;     /* [N/m]; CZ_NEVER for a missing buffer */
     CzRow share;          /* unloading force over loading force [-] */
     CzRow damping;        /* [N s/m] */
     CzRow quadratic;      /* [N s2/m2] */
@@ -105,23 +105,23 @@ typedef struct CzBufferRows {
 } CzBufferRows;
 
 typedef struct CzShearOffRows {
-    CzRow force;     /* [N]; never without */
-    CzRow residual;  /* kept once sheared off [N] */
+    CzRow force;     /* [N]; CZ_NEVER if none */
+    CzRow residual;  /* force after shear-off [N] */
     CzRow softening; /* 1 without [m] */
-    CzRow space;     /* softening length plus retraction space [m]; never without */
+    CzRow space;     /* softening length plus retraction space [m]; CZ_NEVER if none */
     CzRow bottom;    /* [N/m] */
 } CzShearOffRows;
 
 typedef struct CzHingeRows {
     CzRow stiffness;      /* [N m/rad] */
     CzRow moment;         /* at which it yields [N m] */
-    CzRow stop;           /* [rad]; never without */
+    CzRow stop;           /* [rad]; CZ_NEVER if none */
     CzRow stop_stiffness; /* [N m/rad] */
 } CzHingeRows;
 
 typedef struct CzCouplerRows {
-    CzRow exists;  /* 1 when both sides have a coupler (a fixed partner needs none: side B then has
-                      neutral members) */
+    CzRow exists;  /* 1 when both sides have a coupler (a fixed partner requires none: side B then
+                      has  neutral members) */
     CzRow coupled; /* 1 when the couplers carry tension: inner interfaces */
     CzPairRows pivot; /* the lengths of struts are in the distance; 1 without couplers */
     CzRow length; /* distance between the pivots, along their line, at which the faces just touch;
@@ -131,7 +131,7 @@ typedef struct CzCouplerRows {
     struct {
         CzRow on_end;       /* 1 when the pivot is fixed to the end mass */
         CzRow strut_length; /* pivot to face, uncompressed, of a coupler whose line can rotate: its
-                               largest shortening [m]; never without */
+                               largest shortening [m]; CZ_NEVER if none */
         CzBufferRows buffer;
         CzRow tube_rate, second_tube_rate; /* rate factors [s/m] */
         CzShearOffRows shear;
@@ -141,23 +141,23 @@ typedef struct CzCouplerRows {
 
 /* Anti-climbers, or the bare ends where there are none. */
 typedef struct CzFaceRows {
-    CzPairRows contact;       /* face centres; on the end mass (rigid, fixed: on the body) */
-    CzRow compliance;         /* sum of 1/stiffness of the anti-climbers of both sides [m/N] */
-    CzRow damping;            /* both sides in series [N s/m] */
-    CzRow overlap;            /* vertical, of two level faces: half the sum of the face heights [m];
-                                 never where nothing can climb (rigid, fixed) */
-    CzRow rib_pitch;          /* face height over rib count, the larger of both sides; 1 without
-                                 ribs [m] */
-    CzRow rib_depth;          /* closure over which the ribs engage; 1 without ribs [m] */
+    CzPairRows contact; /* face centres; on the end mass (rigid, fixed: on the body) */
+    CzRow compliance;   /* sum of 1/stiffness of the anti-climbers of both sides [m/N] */
+    CzRow damping;      /* both sides in series [N s/m] */
+    CzRow overlap;   /* vertical, of two level faces: half the sum of the face heights [m]; CZ_NEVER
+                        where nothing can climb (rigid, fixed) */
+    CzRow rib_pitch; /* face height over rib count, the larger of both sides; 1 without
+                        ribs [m] */
+    CzRow rib_depth; /* closure over which the ribs engage; 1 without ribs [m] */
     CzRow rib_capacity;       /* vertical capacity of all ribs when the faces are level: the weaker
                                  side's count * devices * strength [N] */
     CzRow friction;           /* the smaller of both sides [-] */
     CzRow stiffness_vertical; /* both sides in series; 1 without [N/m] */
     struct {
-        CzRow rate;           /* rate factor of the anti-climber [s/m] */
-        CzRow speed_factor;   /* over reference speed [s/m] */
-        CzRow has_massless;   /* 1 when the crush zone of the side lies in series with the
-                                 anti-climber (rigid, fixed) */
+        CzRow rate;         /* rate factor of the anti-climber [s/m] */
+        CzRow speed_factor; /* over reference speed [s/m] */
+        CzRow has_massless; /* 1 when the crush zone of the side is in series with the anti-climber
+                               (rigid, fixed) */
         CzCrushRows massless; /* that crush zone, without an end mass */
     } side[2];
 } CzFaceRows;
@@ -171,7 +171,7 @@ typedef struct CzSuperstructureRows {
 typedef struct CzDrawGearRows {
     CzPairRows contact; /* draw hooks, on the bodies */
     CzRow stiffness;    /* both sides in series; 1 without [N/m] */
-    CzRow slack;        /* of both sides; never without [m] */
+    CzRow slack;        /* of both sides; CZ_NEVER if none [m] */
 } CzDrawGearRows;
 
 typedef struct CzSideBufferRows {
@@ -201,9 +201,9 @@ typedef struct CzParameters {
     } link;
     CzStrutRows axle_guidance;
     CzSuspensionRows secondary; /* per bogie */
-    CzRow secondary_preload[2]; /* static load [N]; never when the spring carries tension */
+    CzRow secondary_preload[2]; /* static load [N]; CZ_NEVER when the spring carries tension */
     CzSuspensionRows primary;   /* per axle */
-    CzRow primary_preload[4];   /* static load [N]; never when the spring carries tension */
+    CzRow primary_preload[4];   /* static load [N]; CZ_NEVER when the spring carries tension */
     CzWheelRows wheel;
     CzDragRows drag;
     CzRow

@@ -21,16 +21,16 @@ enum { FEWEST_PAIRS = 8, MOST_PAIRS = 16, N_ITERATION = 8, MOST_REPAIRS = 8 }; /
 _Static_assert(CZ_MOST_PAIR_MODES >= 2 * MOST_PAIRS + MOST_REPAIRS, "every pole may be real");
 
 #define LARGEST_ERROR 3e-3  /* of the largest receptance, at the samples (ours) */
-#define NEARLY_REAL 1e-9    /* imaginary part of a root that has none, of its size */
+#define NEARLY_REAL 1e-9    /* largest imaginary part of a real root, as a share of its size */
 #define LEAST_DAMPING 1e-12 /* smallest damping ratio of a mode that counts as damped */
 
-/* Where the fit is tested for passivity: frequencies of the imaginary axis [rad/s] (ours). */
+/* Frequencies on the imaginary axis at which the fit is tested for passivity [rad/s] (ours). */
 #define AXIS_FROM 1.0
 #define AXIS_TO 1e7
 #define AXIS_GROWTH 1.01
 #define REPAIRED 1.05 /* factor on the smallest correction that makes the fit passive (ours) */
 
-#define STORAGE_STEP 1e-6 /* in which the energy of the modes is counted [s] (ours) */
+#define STORAGE_STEP 1e-6 /* time step for the stored energy of the modes [s] (ours) */
 
 /* ---- the modal track ------------------------------------------------------------------------- */
 
@@ -112,8 +112,8 @@ typedef struct Samples {
     double largest; /* of the values */
 } Samples;
 
-/* A rational function by its poles: of a conjugate pair the one above, with two numbers for its
- * residue, of a real pole one. */
+/* A rational function by its poles: for a conjugate pair the upper one, with two numbers for its
+ * residue, for a real pole one. */
 typedef struct Poles {
     int n_pole, n_number;
     CzComplex pole[2 * MOST_PAIRS];
@@ -169,7 +169,7 @@ static int basis_at(CzComplex pole, CzComplex s, CzComplex basis[2]) {
 /* Rows of the least squares: real and imaginary parts of all samples. */
 enum { N_ROW = 2 * N_SAMPLE, MOST_COLUMNS = 4 * MOST_PAIRS };
 
-/* Columns of the basis, each times a factor per sample, to `a`. */
+/* Writes the columns of the basis, each times a factor per sample, to `a`. */
 static void put_basis(const Samples *samples, const Poles *poles, bool times_value, double *a) {
     for (int k = 0; k < N_SAMPLE; k++) {
         const CzComplex s = {0.0, samples->frequency[k]};
@@ -231,8 +231,8 @@ static CzComplex slope_of_sigma(const void *function, CzComplex s) {
     return cz_complex_sum(sigma.sum, cz_complex_ratio(sigma.slope, sigma.value));
 }
 
-/* The zeros of sigma, mirrored to the stable side. The starting values are beside the poles and no
- * pair of them is conjugate, because two real roots could not separate. */
+/* The zeros of sigma, mirrored to the stable side. The starting values are near the poles, and no
+ * two of them are conjugate, because two real roots could not separate then. */
 static void move_poles(Poles *poles) {
     CzComplex root[2 * MOST_PAIRS];
     int n = 0;
@@ -251,8 +251,8 @@ static void move_poles(Poles *poles) {
     }
 }
 
-/* Better poles, from G sigma = the rational function and sigma = 1 + the same function with other
- * residues. */
+/* Improves the poles, from G sigma = the rational function and sigma = 1 + the same function with
+ * other residues. */
 static bool iterate(const Samples *samples, Poles *poles, double *a) {
     double b[N_ROW];
     const int n = poles->n_number;
@@ -267,7 +267,7 @@ static bool iterate(const Samples *samples, Poles *poles, double *a) {
     return poles->n_number == n;
 }
 
-/* The modes of given poles, residues by least squares. */
+/* Fits the modes for given poles, with residues by least squares. */
 static bool fit_residues(const Samples *samples, const Poles *poles, double *a,
                          struct CzPairModes *modes) {
     double b[N_ROW];
@@ -358,7 +358,7 @@ static bool find_storage(struct CzPairModes *modes, CzArena *arena, CzArena *scr
 
 /* ---- the fit --------------------------------------------------------------------------------- */
 
-/* With the fewest pairs that are close enough. */
+/* Fits one motion with the fewest pairs that are accurate enough. */
 static bool fit_motion(const Samples *samples, double cut, double *a, struct CzPairModes *modes) {
     for (int n_pair = FEWEST_PAIRS; n_pair <= MOST_PAIRS; n_pair += 2) {
         Poles poles = first_poles(n_pair, cut);

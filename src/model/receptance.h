@@ -18,7 +18,7 @@
 
 #include "model/track.h"
 
-/* How the two wheels of a bogie move. */
+/* Motions of the two wheels of a bogie. */
 typedef enum CzPairMotion { CZ_PAIR_BOUNCE, CZ_PAIR_PITCH, CZ_N_PAIR_MOTION } CzPairMotion;
 
 /* The damped modes of a track in bounce or pitch of two wheels: receptance = sum of square / (s -
@@ -33,8 +33,8 @@ typedef struct CzTrackSpectrum {
 bool cz_track_spectrum(const CzTrackModes *modes, double axle_spacing, CzArena *arena,
                        CzTrackSpectrum *spectrum);
 
-/* Deflection of both wheels in bounce or pitch per force on each, without the flexibility beside
- * the modes [m/N]. */
+/* Deflection of both wheels in bounce or pitch per force on each, without the additional
+ * flexibility [m/N]. */
 CzComplex cz_track_receptance(const CzTrackSpectrum *spectrum, CzPairMotion motion, CzComplex s);
 
 enum { CZ_MOST_PAIR_MODES = 40 };
@@ -51,14 +51,14 @@ typedef struct CzReceptance {
     struct CzPairModes {
         int n;
         CzPairMode mode[CZ_MOST_PAIR_MODES];
-        double error;    /* largest over the samples, of the largest receptance */
+        double error;    /* largest over the samples, relative to the largest receptance */
         double *storage; /* H: x' H x of the real and imaginary parts of the modes' y in turn is the
                             energy per wheel that they can still return (2 n x 2 n) */
     } motion[CZ_N_PAIR_MOTION];
 } CzReceptance;
 
 /* Fits the receptance of a track under bogies of one axle spacing; the arena owns the storage.
- * Statuses: CZ_OK, CZ_STATUS_INPUT when no fit is close enough, CZ_STATUS_NO_MEMORY. */
+ * Statuses: CZ_OK, CZ_STATUS_INPUT when no fit is accurate enough, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_receptance_fit(const CzTrackModes *modes, double axle_spacing,
                                          CzArena *arena, CzReceptance *receptance, CzError *error);
 CzComplex cz_fitted_receptance(const CzReceptance *receptance, CzPairMotion motion, CzComplex s);

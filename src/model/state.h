@@ -9,9 +9,9 @@ enum { CZ_LANE_BLOCK = 8 };
 /* One quantity of all lanes of a block. */
 typedef double CzRow[CZ_LANE_BLOCK];
 
-/* Numbers of a part that does not exist. */
+/* Values for a part that does not exist. */
 #define CZ_NEVER 1e30   /* a force, gap or stiffness that nothing reaches */
-#define CZ_MISSING 1e29 /* strengths, strokes and gaps from here on are never reached */
+#define CZ_MISSING 1e29 /* strengths, strokes and gaps from this value on are never reached */
 
 /* A number for each direction in which a body moves in the plane: displacement [m, rad], velocity,
  * force or mass. Pitch is positive nose-up. */
@@ -19,18 +19,18 @@ typedef struct CzPlane {
     CzRow x, z, pitch;
 } CzPlane;
 
-/* The same of a wheelset, whose spin is positive when it rolls forward. */
+/* The same for a wheelset, whose spin is positive when it rolls forward. */
 typedef struct CzWheelset {
     CzRow x, z, spin;
 } CzWheelset;
 
-/* Of all bodies of a car: ends and bogies rear first, wheelsets from the rear. */
+/* The same for all bodies of a car: ends and bogies rear first, wheelsets from the rear. */
 typedef struct CzState {
     CzPlane body, end[2], bogie[2];
     CzWheelset wheelset[4];
 } CzState;
 
-/* Number of a row of a struct of rows, and how many rows it has: for tables and loops over all. */
+/* Number of a row in a struct of rows, and number of its rows: for tables and loops over all. */
 #define CZ_ROW_OF(type, member) ((int)(offsetof(type, member) / sizeof(CzRow)))
 #define CZ_ROWS_IN(type) ((int)(sizeof(type) / sizeof(CzRow)))
 

@@ -3,9 +3,9 @@
  *   body = (mass - bogies - wheelsets - ends) * mass factor + payload * share + absorbers
  *   F_front + F_rear = (body + ends) g         (F_front - F_rear) l_c = (m_ef d_f - m_er d_r) g
  *
- * The body's centre of gravity lies in the middle between the foremost planes of the car as its
- * file gives it. Absorbers longer than `drawn_stroke` (by default the stroke in the file) move
- * their foremost plane outwards by the additional stroke over the efficiency.
+ * The body's centre of gravity is midway between the foremost planes of the car as given in its
+ * file. Absorbers longer than `drawn_stroke` (by default the stroke in the file) move their
+ * foremost plane outwards by the additional stroke over the efficiency.
  */
 #include "model/fill.h"
 
@@ -42,7 +42,7 @@ static CzStatus check_positive(const CzFill *fill, int car, const double *value,
                           "%s is %g; it must be positive", what, *value);
 }
 
-/* Masses of a full car, and the loads that they put on springs and rails. */
+/* Masses of a full car, and their static loads on springs and rails. */
 static CzStatus full_statics(const CzFill *fill, int car, const CzVehicle *vehicle,
                              CzStatics *statics) {
     const CzScenario *scenario = fill->model->scenario;

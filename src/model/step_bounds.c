@@ -6,8 +6,8 @@
  *
  *   w dt < 2 (sqrt(1 + 4 zeta^2) - 2 zeta)     that is     dt < 2 / (sqrt(k b + (c b)^2) + c b)
  *
- * Members that a body carries in pairs count twice in its mobility. Wheel and rail are taken at
- * four times the static load (ours).
+ * Members that are connected to a body in pairs count twice in its mobility. Wheel and rail are
+ * taken at four times the static load (ours).
  */
 #include "base/error.h"
 #include "laws/drag.h"
@@ -40,7 +40,7 @@ typedef struct Car {
     size_t i;                 /* its place there */
 } Car;
 
-/* Keeps the list in order, the smallest first. */
+/* Adds a bound to the sorted list, the smallest first. */
 static void note_bound(CzModel *model, const char *what, const char *of, const char *where,
                        double value_of) {
     CzStepBound bound = {.bound = value_of};
@@ -88,7 +88,7 @@ static double point_mobility(const CzInverse *inverse, size_t i, double arm) {
 
 /* ---- one car ---- */
 
-/* Equal cars share a bound, which takes a search to find. */
+/* Equal cars share a bound, because finding it requires a search. */
 static void note_elastic_track(const Car *car, double contact, double primary) {
     const double wheelset = car->rows->inverse.wheelset.mass[car->i];
     OnRails *last = car->on_rails;
@@ -121,7 +121,7 @@ static void note_wheels(const Car *car) {
         note_bound(car->model, "rolling resistance", "", car->name, CZ_DRAG_TIME);
 }
 
-/* Of a car without running gear. */
+/* Bound of the drag of a car without running gear. */
 static void note_drag(const Car *car) {
     const CzDragRows *drag = &car->rows->drag;
     const size_t i = car->i;
@@ -252,7 +252,7 @@ static void note_draw_gears(const Car *car) {
              mobility(&carriers, rows->contact.z, car->i));
 }
 
-/* Largest closing speed that the hydraulic damping can meet. */
+/* Largest closing speed at which the hydraulic damping can act. */
 static double closing_speed(const Car *car) {
     const CzCar *cars = car->model->car;
     const int front = car->model->colliding;

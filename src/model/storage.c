@@ -22,7 +22,7 @@
 enum { MOST_DOUBLINGS = 24 }; /* 16 million steps (ours) */
 #define LAST_CHANGE 1e-6      /* of the largest entry of H (ours) */
 
-/* Matrices of one order, stored by columns as the least squares want them. */
+/* Square matrices of the same order, stored by columns as cz_least_squares requires. */
 typedef struct Doubling {
     int n;
     double *a, *g, *h; /* the iterates */

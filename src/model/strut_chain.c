@@ -13,9 +13,9 @@
  *
  *   K u = F G u    with the energies u^T K u / 2 and the shortening u^T G u / 2 under the force F
  *
- * The force is the same in every strut, and it acts on both ends of every body: a body with one
- * strut is pushed as far from its middle at its other end. Eigenvalues F are found from L^-1 G L^-T
- * y = (1 / F) y, K = L L^T, u = L^-T y.
+ * The force is the same in every strut, and it acts on both ends of every body: on a body with one
+ * strut it acts at the same distance from the middle of the other end. Eigenvalues F are found from
+ * L^-1 G L^-T y = (1 / F) y, K = L L^T, u = L^-T y.
  *
  * A shape belongs to a strut when the shortening there is at least a hundredth (the swing a tenth)
  * of the largest one in the shape; for a smaller swing the force is increased in inverse proportion
@@ -181,7 +181,7 @@ static void assemble(Chain *chain) {
 
 /* ---- shapes ---- */
 
-/* Shapes into the columns of `shape`, 1 / F onto the diagonal of `shortening`. */
+/* Computes the shapes in the columns of `shape`, and 1 / F on the diagonal of `shortening`. */
 static bool find_shapes(Chain *chain) {
     const int n = chain->n;
     if (!cz_symmetric_factor(n, chain->stiffness))
@@ -190,7 +190,7 @@ static bool find_shapes(Chain *chain) {
         cz_lower_solve(n, chain->stiffness, &chain->shortening[column], n);
     for (int row = 0; row < n; row++)
         cz_lower_solve(n, chain->stiffness, &chain->shortening[row * n], 1);
-    for (int row = 0; row < n; row++) /* to the last bit, in spite of rounding */
+    for (int row = 0; row < n; row++) /* symmetric to the last bit */
         for (int column = 0; column < row; column++)
             chain->shortening[row * n + column] = chain->shortening[column * n + row];
     cz_symmetric_diagonalise(n, chain->shortening, chain->shape);
@@ -199,7 +199,7 @@ static bool find_shapes(Chain *chain) {
     return true;
 }
 
-/* Shortening at one strut in a shape: of the strut and of the bodies beside it. */
+/* Shortening at one strut in a shape: of the strut and of the two bodies at it. */
 static double shortening_at(const Chain *chain, const Strut *strut, int shape) {
     double sum = 0.0;
     for (int i = 0; i < N_OF_STRUT; i++)

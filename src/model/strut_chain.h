@@ -15,10 +15,11 @@ typedef struct CzChainCar {
 /* One end of a strut. Distances are outwards, away from the middle of the car. */
 typedef struct CzChainPivot {
     double hinge;    /* stiffness of the hinge [N m/rad] */
-    double body_arm; /* from the middle of the body to the pivot, or to the end mass it is on [m] */
+    double body_arm; /* from the middle of the body to the pivot, or to the end mass that carries it
+                        [m] */
     double end_arm;  /* from the end mass to the pivot [m] */
     double end_guide; /* of the end mass across the body; 0 for a pivot on the body [N/m] */
-    double end_fold;  /* of the end mass against turning [N m/rad] */
+    double end_fold;  /* of the end mass against rotation [N m/rad] */
 } CzChainPivot;
 
 /* The couplers between a car and the next one. */
@@ -30,7 +31,7 @@ typedef struct CzChainStrut {
 
 /* Writes the force at which each of the n_car - 1 struts folds [N]: that of the lowest shape of the
  * chain, under one force from end to end, that belongs to the strut. NaN where there is no strut or
- * no moving car beside it. Statuses: CZ_OK, CZ_STATUS_NO_MEMORY (without an error text).
+ * no movable car at it. Statuses: CZ_OK, CZ_STATUS_NO_MEMORY (without an error text).
  */
 CzStatus cz_strut_chain_fold(int n_car, const CzChainCar *car, const CzChainStrut *strut,
                              CzArena *scratch, double *force);

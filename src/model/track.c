@@ -4,8 +4,8 @@
 #include "base/error.h"
 #include "model/track_block.h"
 
-#define RECORD_CUT 1500.0 /* [Hz] */
-#define DECAYS 16.0 /* of the static deflection from the last wheel round to the first (ours) */
+#define RECORD_CUT 1500.0     /* [Hz] */
+#define DECAYS 16.0           /* of the static deflection around the ring (ours) */
 #define LARGEST_RESIDUAL 1e-9 /* of a block's modes against its mass (ours; 1e-15 is usual) */
 #define NEARLY_REAL 1e-9      /* imaginary part below which a root counts as real */
 
@@ -28,7 +28,7 @@ static int choose_seats(const CzSeats *seats, double span) {
 
 /* ---- modes of a block ---- */
 
-/* One eigenvalue that is kept; only one of a pair. */
+/* One retained eigenvalue; only one of a pair. */
 typedef struct Mode {
     CzComplex lambda, direct, alias, pad;
 } Mode;

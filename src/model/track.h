@@ -10,16 +10,16 @@
  *   F(s) f = sum of h_k(s) load_k     F = sum c_k / (s^2 + w_k^2) + R + 1 / (k_p + s c_p) + B(s)
  *
  * with the bending branch of the waves of the block (h_k = p_k / (M_k (s^2 + w_k^2)), c_k = n_j
- * h_k), R the static flexibility of all other waves and branches at the seats, and B what sleeper
- * and ballast deflect. The block's eigenvalues are the roots of F, found at once (Aberth) and
+ * h_k), R the static flexibility of all other waves and branches at the seats, and B the deflection
+ * of sleeper and ballast. The block's eigenvalues are the roots of F, found at once (Aberth) and
  * tested; the deflection at x under a force at y is the sum over them of g(x) g(y) / (s - lambda)
  * with
  *
  *   g(x) = sum_k sqrt(-n_j / F'(lambda)) h_k(lambda) (cosine or sine of K_k x)
  *
- * Nothing is assumed of the damping. Eigenvalues beyond the cut are left out, and what they and the
- * other waves would deflect at rest is a flexibility under the force itself: one number that
- * varies with the place between two seats.
+ * The damping is arbitrary. Eigenvalues beyond the cut are left out, and the static deflection of
+ * these and of the other waves is a flexibility under the force itself, which varies with the place
+ * between two seats.
  */
 #ifndef CZ_MODEL_TRACK_H
 #define CZ_MODEL_TRACK_H
@@ -40,7 +40,7 @@ typedef struct CzTrackGroup {
     int vector;                       /* j / 8 */
     CzComplex lambda[CZ_TRACK_WIDTH]; /* [1/s] */
     CzComplex direct[CZ_TRACK_WIDTH]; /* g for the rail wave j [1/sqrt(kg s)] */
-    CzComplex alias[CZ_TRACK_WIDTH];  /* g for the rail wave j - n_seat; 0 where it is cut */
+    CzComplex alias[CZ_TRACK_WIDTH];  /* g for the rail wave j - n_seat; 0 where it is cut off */
     CzComplex pad[CZ_TRACK_WIDTH];    /* force of a pad at the crest per state y */
 } CzTrackGroup;
 
@@ -100,8 +100,8 @@ typedef CzComplex CzTrackAnswer(CzComplex lambda, double step);
 void cz_track_add_modes(const CzTrackModes *modes, CzTrackAnswer *answer, double step,
                         double sum[2]);
 
-/* Modes in steps: a force is constant from step / 2 before to step / 2 after its time, and the
- * modes are read without its first half. Per g and force:
+/* Modes in time steps: a force is constant from step / 2 before to step / 2 after its time, and the
+ * modes are read before its first half acts. Per g and force:
  *
  *   (2 / lambda) sinh(lambda step / 2)   response to one force before a free step
  *   -exp(lambda step / 2) / lambda       deflection of a mode under a constant force

@@ -2,8 +2,8 @@
  *
  *   K v = w^2 M v   with M diagonal, as   (M^-1/2 K M^-1/2) u = w^2 u,   u = M^1/2 v
  *
- * Body and end masses move as one, about their common centre of gravity. The symmetric eigenproblem
- * is solved completely.
+ * Body and end masses move as one rigid body, about their common centre of gravity. The symmetric
+ * eigenproblem is solved completely.
  */
 #include "model/vertical_modes.h"
 

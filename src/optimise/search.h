@@ -24,7 +24,7 @@ typedef struct CzFunction {
     int n_detail;    /* constraints place by place, so without the breakpoints of the worst place; 0
                         when there are none */
     bool is_minimax; /* the objective is the largest constraint, up to a constant */
-    bool is_fit; /* the objective is a sum of squares, the details are its residuals, and flags tell
+    bool is_fit; /* the objective is a sum of squares, the details are its residuals, and flags are
                     whether each is small enough */
 
     /* Evaluates n_point designs: x is (n_point x n_variable), objective (n_point) with NaN for a
@@ -80,8 +80,8 @@ typedef struct CzSearch {
     char why[128];
 } CzSearch;
 
-/* Starts a search; `options` gives limit, stop flag and progress. It takes no ownership of the
- * function. */
+/* Starts a search; `options` gives limit, stop flag and progress. The function remains owned by the
+ * caller. */
 void cz_search_init(CzSearch *search, const CzFunction *function, const CzOptimiseOptions *options);
 void cz_search_free(CzSearch *search);
 

@@ -11,8 +11,8 @@ bool cz_key_acts_on(const CzKey *key, CzVehicleModel model);
 /* Whether a key requires another key or a partner. */
 bool cz_key_is_conditional(const CzKey *key);
 
-/* Whether the field of a key has an effect on the model of its vehicle; fields outside of vehicles
- * have. */
+/* Whether the field of a key has an effect on the model of its vehicle; always true for fields
+ * outside of vehicles. */
 bool cz_field_acts_on_model(const CzProblem *problem, const CzKey *key, const void *field);
 
 /* The same, and the key is required or the other key and the partner that it requires exist. */

@@ -62,7 +62,7 @@ void cz_problem_free(CzProblem *problem) {
     free(problem);
 }
 
-/* Counts the vehicles of all trains and gives each train its part of one array. */
+/* Counts the vehicles of all trains and assigns to each train its part of one array. */
 static bool allocate_vehicles(CzProblem *problem, const CzNode *root) {
     CzArena *arena = &problem->reader.arena;
     const CzEntry *trains = cz_node_find_list(root, "trains");

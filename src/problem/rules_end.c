@@ -43,7 +43,7 @@ static void check_rate(const CzRules *rules, const double *factor, const CzTable
             "a dynamic curve already contains the rate effect; this would count it twice");
 }
 
-/* A tube or anti-climber: the peak that starts the crush is no lower than what follows, and the
+/* A tube or anti-climber: the trigger peak is not below the first force of the curve, and the
  * device is longer than its usable stroke. */
 static void check_device(const CzRules *rules, CzDevice device, const void *record,
                          const char *what) {

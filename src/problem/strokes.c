@@ -8,7 +8,7 @@
 #include "problem/trace.h"
 #include "tree/merge.h"
 
-#define APART 1e-6  /* of the stroke: points that are no closer (ours) */
+#define APART 1e-6  /* smallest distance of points, of the stroke (ours) */
 #define BEHIND 0.01 /* of the stroke: a larger decrease of plastic strokes is reported (ours) */
 #define WITHOUT_FORCE 0.2 /* of the mean force: a smaller first force counts as zero (ours) */
 

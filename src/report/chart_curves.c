@@ -65,7 +65,7 @@ static void name_curve(char *name, size_t room, const char *title, const char *q
     }
 }
 
-/* Reads one column, a title or a number, and gives it the units of its figure. */
+/* Reads one column, a title or a number, and converts it to the units of its figure. */
 static CzStatus read_column(Reading *reading, const char *column, const char *title) {
     const CzChartOptions *options = reading->options;
     CzChart chart = reading->chart;

@@ -34,7 +34,7 @@ typedef struct CzChartAxes {
     double y_unit;
 } CzChartAxes;
 
-/* False for a figure that takes no measured curve. */
+/* False for a figure without measured curves. */
 bool cz_chart_axes(CzChart chart, CzChartAxes *axes);
 
 enum { CZ_MOST_CHART_CURVES = 12 };

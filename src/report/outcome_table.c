@@ -211,7 +211,7 @@ static void write_violations(const CzEvaluator *evaluator, const CzOutcome *outc
     cz_table_write_text(&table, terminal);
 }
 
-/* A change in per cent, up to the next tenth. */
+/* A change in percent, rounded up to one decimal. */
 static double tenths_above(double change) {
     return 0.1 * ceil(1e3 * change);
 }

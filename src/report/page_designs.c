@@ -66,7 +66,7 @@ static void write_designs(CzMarkup *markup, const Axes *axes, bool feasible, con
         const CzTrial *trial = &outcome->trial[i];
         if (trial->feasible != feasible || !isfinite(trial->objective))
             continue;
-        if (seen++ * most / n < shown) /* of n designs every n / most-th */
+        if (seen++ * most / n < shown) /* `most` of n designs, evenly spaced */
             continue;
         shown++;
         write_design(markup, axes, &outcome->trial_x[i * outcome->n_variable], axes->objective[i]);

@@ -126,7 +126,7 @@ static CzBudgetSource source_of(const CzResultContext *context) {
 
 /* ---- searches, verifications, comparisons ---- */
 
-/* In place of the check of a constraint that is a target, and of a check that a run does not have.
+/* Replaces the check of a constraint that is a target, and a check that a run does not have.
  */
 static const CzCheckResult no_check = {
     .limit = NAN, .value = NAN, .margin = NAN, .verdict = CZ_VERDICT_PASS};

@@ -61,7 +61,7 @@ static void put_face(Writer *writer, int interface) {
             put(writer, CZ_CHANNEL_ANTI_CLIMBER_STROKE, cz_end_place(interface + side, side == 0),
                 1e3 * cz_memory(batch, CZ_MEMORY(face.side[side].stroke), lane));
     const bool pushes = cz_published(batch, CZ_PUBLISHED(face.force), lane) > 0.0;
-    if (of->can_climb) /* there is no overlap until they meet */
+    if (of->can_climb) /* there is no overlap before contact */
         put(writer, CZ_CHANNEL_ANTI_CLIMBER_OVERLAP, interface,
             pushes ? 1e3 * cz_published(batch, CZ_PUBLISHED(face.remaining), lane) : NAN);
 }

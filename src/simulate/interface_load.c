@@ -23,7 +23,7 @@
            (ours) */
 
 struct CzInterfaceLoad {
-    double place;        /* about which the car behind stands [m] */
+    double place;        /* about which the car behind is at rest [m] */
     double still_since;  /* [s] */
     double largest;      /* closure [m] */
     bool to_be_unloaded; /* it has not returned its energy since then */

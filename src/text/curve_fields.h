@@ -12,7 +12,7 @@
 enum { CZ_MOST_FIELD_TEXT = 128 }; /* of a field that is kept as text, with its end [byte] */
 
 /* Splits a text into lines. `source` has name, folder and order; its lines are in the arena. A
- * mistake is added when the content is not text. False then, and without memory. */
+ * mistake is added when the content is not text. False in that case, and without memory. */
 bool cz_curve_lines(CzArena *arena, CzMistakes *mistakes, const char *text, size_t n_byte,
                     CzSource *source);
 

@@ -1,7 +1,7 @@
 /* The one reader of curve files: two columns of numbers from files of testing machines,
  * spreadsheets and programs.
  *
- *   lines before the titles                 passed over (a preamble), as are comments
+ *   lines before the titles                 skipped (a preamble), as are comments
  *   one line of titles, perhaps one of units
  *   points to the end of the file
  *

@@ -44,8 +44,7 @@ void cz_mistake_help(CzMistakes *mistakes, const char *help);
 /* Adds a hint "did you mean 'best'?" when there is a best word. */
 void cz_mistake_suggest(CzMistakes *mistakes, const CzSuggestion *suggestion);
 
-/* Puts the mistakes into the order of files, lines and columns, and adds one that counts those left
- * out. */
+/* Sorts the mistakes by file, line and column, and adds one with the number of those left out. */
 void cz_mistakes_finish(CzMistakes *mistakes);
 
 /* Status of reading `what`: CZ_OK without mistakes, CZ_STATUS_INPUT with the first one,

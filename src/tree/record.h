@@ -58,7 +58,7 @@ typedef struct CzKey {
     size_t offset;                /* of the field in its record [byte] */
     CzDimension dimension;        /* number: its own; table: of x */
     double lo, hi;                /* number and count: range [SI] */
-    CzUsual usual[2];             /* number: the second only with the first */
+    CzUsual usual[2];             /* number: the second is optional */
     double absent;                /* number, count, choice, flag: value when absent */
     CzVariation variation;        /* number: whether a search may change it */
     const CzWordSet *words;       /* choice: what it may be */

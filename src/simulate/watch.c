@@ -34,7 +34,11 @@ struct CzWatch {
     CzEvent *event;
 };
 
-enum { MOST_PER_CAR = 64, MOST_GUARDS = 64 };
+enum {
+    MOST_PER_CAR = 64,
+    MOST_GUARDS =
+        CZ_ROWS_IN(CzMemory) + CZ_ROWS_IN(CzExtremes) + 4 /* and two stops of two bogies */
+};
 
 /* The guard of a row: its offset and sign. */
 static Guard guard_of(Source source, int row) {

@@ -1,5 +1,5 @@
-/* Allowed characters of texts and names. The same rule applies to every text: in a file, of an
- * escape in it, of the command line, and the name of a file.
+/* Allowed characters of texts and names. The same rule applies to every text: in a file, also by an
+ * escape sequence, on the command line, and in names of files.
  *
  * A text is UTF-8 on one line. It contains no control characters, no marks of the writing
  * direction, no invisible characters, no line separators and no noncharacters. Joiners (U+200C,

@@ -63,7 +63,7 @@ typedef struct CzPushed {
     CzRow section;     /* force through the section behind the end [N] */
 } CzPushed;
 
-/* Impulse of external forces, advanced beside the state. */
+/* Impulse of external forces, advanced with the state. */
 typedef struct CzImpulse {
     CzRow position, velocity, force, last_force; /* [N s2, N s, N, N] */
 } CzImpulse;

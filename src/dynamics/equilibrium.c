@@ -5,7 +5,7 @@
  *   wheel:  N - F_p = m_wheelset g                 N = Hertz's law on the rail, under the approach
  *
  * with F_s, F_p from the suspension's law and the rail's deflection from the track at rest under
- * all four N. Unknown are the ten displacements and the four forces N.
+ * all four N. The unknowns are the ten displacements and the four forces N.
  */
 #include "dynamics/equilibrium.h"
 

@@ -19,8 +19,8 @@ typedef struct CzEquilibrium {
     double residual;           /* largest force left unbalanced over the car's weight [-] */
 } CzEquilibrium;
 
-/* Solves for the full car in a lane. `track` is one for a step of 0 and four cars that the search
- * may lay anew, with memory from the arena; NULL on rigid rails. Statuses: CZ_OK,
+/* Solves for the full car in a lane. `track` is a track for a step of 0 and four cars, which the
+ * search lays again with memory from the arena; NULL on rigid rails. Statuses: CZ_OK,
  * CZ_STATUS_RUN_FAILED, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_equilibrium_find(const CzLanes *lanes, size_t lane, CzTrackMotion *track,
                                            CzArena *arena, CzEquilibrium *equilibrium,

@@ -1,5 +1,5 @@
 /* Resistance of the track to a car without running gear: brakes, rolling resistance, and the
- * friction jaws of a buffer stop with the end stop behind their travel. Part of kernel.c only. */
+ * friction jaws of a buffer stop with the end stop after their travel. Part of kernel.c only. */
 #ifndef CZ_DYNAMICS_KERNEL_DRAG_H
 #define CZ_DYNAMICS_KERNEL_DRAG_H
 

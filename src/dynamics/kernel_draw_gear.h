@@ -1,5 +1,5 @@
-/* Draw gears: tension between the bodies of two coupled cars, beside side buffers that only push.
- * Part of kernel.c only. */
+/* Draw gears: tension between the bodies of two coupled cars, parallel to side buffers, which act
+ * in compression only. Part of kernel.c only. */
 #ifndef CZ_DYNAMICS_KERNEL_DRAW_GEAR_H
 #define CZ_DYNAMICS_KERNEL_DRAW_GEAR_H
 

@@ -44,8 +44,8 @@ static void press_on_elastic(CzBlock *d, int axle) {
     }
 }
 
-/* Creepage and the brake of one axle. The brake holds the wheelset against the bogie frame, which
- * turns the other way round. */
+/* Creepage and the brake of one axle. The brake acts between wheelset and bogie frame, whose angles
+ * have opposite signs. */
 static void wheel(CzBlock *d, int axle, double step) {
     const int bogie = axle / 2;
     const CzWheelRows *restrict rows = &d->parameter.wheel;

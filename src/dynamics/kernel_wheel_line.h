@@ -9,7 +9,7 @@
 typedef struct {
     double slip, speed;    /* of the contact point over the rail, and along it [m/s] */
     double rate_up;        /* [m/s] */
-    double angle, turning; /* in the brake: the frame turns the other way round [rad, rad/s] */
+    double angle, turning; /* of the brake: the frame has the opposite sign [rad, rad/s] */
 } WheelLine;
 
 /* Forces on it. */

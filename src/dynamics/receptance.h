@@ -52,8 +52,8 @@ typedef struct CzReceptanceMotion {
 CzReceptanceMotion *cz_receptance_create(const CzTrackModes *modes, double step, int n_block,
                                          CzArena *arena);
 
-/* Lays the track under a lane's car of an axle spacing that the modes were fitted for, at rest
- * under the loads of its wheels [N]; false when there is no memory. */
+/* Lays the track under the car of a lane, whose axle spacing is one of those of the fitted modes,
+ * at rest under the loads of its wheels [N]; false when there is no memory. */
 bool cz_receptance_lay(CzReceptanceMotion *track, size_t lane, double axle_spacing,
                        const double load[4], CzArena *arena);
 

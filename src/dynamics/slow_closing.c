@@ -54,7 +54,7 @@ static double advance(Path *path, double closure, double step) {
     return force;
 }
 
-/* The retraction space behind a shear-off is left out: another path carries on. */
+/* The retraction space behind a shear-off is left out: another load path acts. */
 static Path path_of(const CzLanes *lanes) {
     return (Path){
         .lanes = lanes, .released_at = NAN, .shear_off = {.force = INFINITY, .space = CZ_NEVER}};

@@ -7,8 +7,8 @@
 
 #define CZ_PLATE_STIFFNESS 2e7 /* vertical stiffness of buffer plates that stick [N/m] (ours) */
 
-/* A crush zone: what it stores, and the energy that it has received: the stored part and the loss
- * of loading it to its largest shortening. */
+/* A crush zone: stored energy, and received energy, which is the stored part and the loss of
+ * loading it to its largest shortening. */
 typedef struct CzCrushEnergy {
     double stored, received;
     double largest, lost; /* shortening [m] that `lost` belongs to: found again when it grows */
@@ -34,7 +34,7 @@ typedef struct CzStored {
     double slide;         /* end stop of a buffer stop at the end of its travel */
 } CzStored;
 
-/* Fills in what a lane stores now. `stored` is zero at first and keeps what was found before. */
+/* Fills in what a lane stores now. `stored` is zero at first and keeps earlier results. */
 void cz_stored_fill(const CzDynamics *dynamics, size_t lane, CzStored *stored);
 
 /* Error of the work in the step in which a stroke first touches the buffer of one side: rise of the

@@ -226,8 +226,8 @@ static inline void cz_track_keep_waves(const CzTrackMotion *track, CzTrackUnder 
     }
 }
 
-/* Adds the work of the load on a row of waves, which held for a step about its time: what the waves
- * deflected from half a step before, kept there, to half a step after. */
+/* Adds the work of the load on a row of waves, which was constant for a step about its time: from
+ * the deflection of the waves half a step before, stored there, to that half a step after. */
 static inline void cz_track_add_work(const CzTrackMotion *track, const CzTrackUnder *under,
                                      int copy, int v, bool aliased, const CzTrackWaves *waves,
                                      double *restrict work) {

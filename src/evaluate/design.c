@@ -132,7 +132,7 @@ static double drawn_stroke(const Builder *builder, const CzTarget *target) {
     return NAN;
 }
 
-/* Adds a path that sets some of the variable's places, once. */
+/* Adds a path that sets some of the variable's places, unless it is listed. */
 static CzStatus add_shown(const Builder *builder, CzDesignVariable *variable,
                           const CzTarget *target, double factor) {
     const char *path = target->place;

@@ -56,7 +56,8 @@ typedef struct CzMetricValue {
     char where[CZ_WHERE_ROOM]; /* place of the worst value */
     double when[2]; /* begin and end of the time at which it was reached [s]; NaN for a sum or mean,
                        or when the time is not stored */
-    char unknown_where[CZ_WHERE_ROOM]; /* first place that does not declare enough; empty when none
+    char unknown_where[CZ_WHERE_ROOM]; /* first place without the required declarations; empty when
+                                        * none
                                         */
     const char *why;                   /* when not known; static */
 } CzMetricValue;

@@ -380,7 +380,7 @@ static CzStatus run_all(CzVerification *verification, const CzEvaluator *evaluat
     return status;
 }
 
-/* Verifies a production evaluation that has its runs. */
+/* Verifies a production evaluation with its runs. */
 static CzStatus verify(CzVerification *verification, CzEvaluator *evaluator, const double *x,
                        const CzEvaluation *record, const CzVerifyOptions *options, CzError *error) {
     verification->limit = options->limit;

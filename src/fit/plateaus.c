@@ -23,7 +23,7 @@ enum {
 
 #define SHORTEST 0.005  /* of a stage, as a share of the stroke (ours) */
 #define PAYS 0.75       /* a further stage must reduce the squares below this share (ours) */
-#define PEAK_WITHIN 0.2 /* part of the stroke in which a trigger peak lies (ours) */
+#define PEAK_WITHIN 0.2 /* part of the stroke in which a trigger peak may be (ours) */
 #define PEAK_HEIGHT 1.1 /* of a trigger over the following force (ours) */
 #define DOWN 1.02       /* of the following force: a peak ends at this force (ours) */
 #define AHEAD 0.1       /* part of the stroke whose mean is the following force (ours) */

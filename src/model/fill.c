@@ -37,8 +37,8 @@ static CzStatus fill_curve(const CzFill *fill, CzPartName part, const void *fiel
     curve->start[lane] = breakpoints->start;
     curve->usable[lane] = breakpoints->usable;
 
-    /* The last breakpoint stays last; spare ones are at its place before it, so breakpoints are in
-     * order. */
+    /* The last breakpoint remains the last; unused ones are at its place before it, so that
+     * breakpoints are in order. */
     const int last = breakpoints->n - 1;
     for (int i = 0; i < curve->n_breakpoint && last >= 0; i++) {
         const size_t slot = (size_t)i * curve->stride + lane;

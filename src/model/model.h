@@ -16,7 +16,7 @@ typedef struct CzCar {
     int train;   /* 0: behind, 1: ahead */
     CzVehicleModel model;
     const CzBrake
-        *brake; /* of its train, with the scenario's ratio in `brake_ratio`; NULL without */
+        *brake; /* of its train, with the scenario's ratio in `brake_ratio`; NULL if none */
     double brake_ratio;
     double speed;   /* [m/s] */
     bool has_stops; /* bump and lift stops of primary and secondary are declared */
@@ -42,8 +42,8 @@ struct CzModel {
                     0.02 s without full cars (ours) [s] */
     int n_bound;
     CzStepBound *bound;           /* smallest first */
-    int n_breakpoint[CZ_N_CURVE]; /* breakpoints that hold every design: counted from the number of
-                               stages or points */
+    int n_breakpoint[CZ_N_CURVE]; /* breakpoints that suffice for every design, from the number of
+                                     stages or points */
     CzVehicleProperties *properties;             /* (n_car) */
     CzInterfaceProperties *interface_properties; /* (n_car - 1) */
 };

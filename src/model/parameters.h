@@ -107,7 +107,7 @@ typedef struct CzBufferRows {
 typedef struct CzShearOffRows {
     CzRow force;     /* [N]; CZ_NEVER if none */
     CzRow residual;  /* force after shear-off [N] */
-    CzRow softening; /* 1 without [m] */
+    CzRow softening; /* 1 if none [m] */
     CzRow space;     /* softening length plus retraction space [m]; CZ_NEVER if none */
     CzRow bottom;    /* [N/m] */
 } CzShearOffRows;
@@ -152,7 +152,7 @@ typedef struct CzFaceRows {
     CzRow rib_capacity;       /* vertical capacity of all ribs when the faces are level: the weaker
                                  side's count * devices * strength [N] */
     CzRow friction;           /* the smaller of both sides [-] */
-    CzRow stiffness_vertical; /* both sides in series; 1 without [N/m] */
+    CzRow stiffness_vertical; /* both sides in series; 1 if none [N/m] */
     struct {
         CzRow rate;         /* rate factor of the anti-climber [s/m] */
         CzRow speed_factor; /* over reference speed [s/m] */
@@ -164,13 +164,13 @@ typedef struct CzFaceRows {
 
 typedef struct CzSuperstructureRows {
     CzPairRows contact; /* foremost points, on the end masses */
-    CzRow stiffness;    /* both sides in series; 1 without [N/m] */
-    CzRow strength;     /* the weaker side's; 0 without [N] */
+    CzRow stiffness;    /* both sides in series; 1 if none [N/m] */
+    CzRow strength;     /* that of the weaker side; 0 if none [N] */
 } CzSuperstructureRows;
 
 typedef struct CzDrawGearRows {
     CzPairRows contact; /* draw hooks, on the bodies */
-    CzRow stiffness;    /* both sides in series; 1 without [N/m] */
+    CzRow stiffness;    /* both sides in series; 1 if none [N/m] */
     CzRow slack;        /* of both sides; CZ_NEVER if none [m] */
 } CzDrawGearRows;
 

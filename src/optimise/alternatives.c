@@ -6,9 +6,9 @@
 
 #include <math.h>
 
-/* Largest number of sets reported, largest ratio of their objective to the best when that exceeds a
- * tolerance, and smallest distance between them as a root mean square share of the ranges (all
- * ours). */
+/* Largest number of reported sets, largest ratio of their objective to the best one when that
+ * exceeds a tolerance, and smallest distance between sets as a root mean square share of the ranges
+ * (all ours). */
 enum { MOST = 5 };
 static const double about_as_well = 1.2;
 static const double apart = 0.1;

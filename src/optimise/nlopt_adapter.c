@@ -1,4 +1,4 @@
-/* NLopt behind one function.
+/* NLopt as one function.
  *
  * NLopt requests the objective and the constraints one after the other at the same point, so the
  * last point is stored and evaluated only once. Gradients are secants: n further designs are
@@ -292,7 +292,7 @@ static nlopt_result set_functions(Bridge *bridge) {
     return result;
 }
 
-/* Runs a bridge that is set up; `variables` is (n, and s). */
+/* Runs a bridge that is set up; `variables` are n, and s if elastic. */
 static nlopt_result start(Bridge *bridge, nlopt_algorithm algorithm, double *variables) {
     const int n = bridge->n;
     double largest = 0;

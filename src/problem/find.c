@@ -16,7 +16,7 @@ static const CzError *first_mistake(const CzReader *reader, const CzNode *place)
 }
 
 /* The same field of the problem as at an address of the trial, which was read from the same tree;
- * NULL when the address lies in no array of numbers that a path may name. */
+ * NULL when the address is not in an array of numbers that a path may name. */
 static const void *same_field(const CzProblem *problem, const CzProblem *trial,
                               const void *address) {
     const CzInput *from = &trial->input, *to = &problem->input;

@@ -34,7 +34,7 @@ CzTrack cz_problem_track(const CzProblem *problem);
 const char *cz_track_word(CzTrack track);
 
 /* The files that were read, in order, the problem file first; more by `next` (text/node.h). NULL
- * when nothing was. */
+ * when none was read. */
 const struct CzSource *cz_problem_first_source(const CzProblem *problem);
 
 /* Name of a file as results report it: an absolute path is given relative to the problem file or

@@ -28,7 +28,7 @@ struct CzProblem {
     CzTargets *targets;   /* one per variable; NULL while they are not found */
 };
 
-/* A problem without anything in it; freed by cz_problem_free. NULL without memory. */
+/* An empty problem; freed by cz_problem_free. NULL without memory. */
 CzProblem *cz_problem_create(const char *share_folder);
 
 /* A problem to be reread from the tree of another, which it must not outlive, with space `*more`

@@ -20,7 +20,7 @@ typedef struct Heap {
     const double *x, *y;
     double *area;        /* of the triangle with the neighbours (n_point) */
     int *before, *after; /* neighbours that remain (n_point) */
-    int *item, *place;   /* points in the heap (n), and where each is there (n_point) */
+    int *item, *place;   /* points in the heap (n), and the place of each in it (n_point) */
     int n;
 } Heap;
 

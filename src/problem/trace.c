@@ -12,7 +12,7 @@
 #define FORCE_NOISE 0.02  /* of the largest force: a smaller one counts as zero (ours) */
 #define MOST_TURNS                                                                                 \
     3 /* of strokes in some order: a wiggle before the load, and the unloading (ours) */
-#define CONTACT 0.01     /* of the largest force: where it begins (ours) */
+#define CONTACT 0.01     /* of the largest force: threshold of its beginning (ours) */
 #define FREE_TRAVEL 0.05 /* of the stroke: more without force is reported (ours) */
 #define UNLOADED 0.8     /* an unloading ends below this share of the force (ours) */
 #define UNLOADING 1e-3   /* of the stroke: a smaller decrease is not an unloading (ours) */

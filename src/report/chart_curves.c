@@ -76,7 +76,7 @@ static CzStatus read_column(Reading *reading, const char *column, const char *ti
     if (chart == CZ_CHART_PANELS)
         CZ_TRY(find_panel(reading, title, &chart));
     CzChartAxes axes = {0};
-    (void)cz_chart_axes(chart, &axes); /* a figure that has some */
+    (void)cz_chart_axes(chart, &axes); /* the figure has axes */
     const CzCurveColumns columns = {.x_quantity = axes.x_quantity,
                                     .y_quantity = axes.y_quantity,
                                     .x = reading->by_unit ? NULL : "1",
@@ -211,7 +211,7 @@ static CzChart chart_of(CzChannel channel) {
     return CZ_N_CHART;
 }
 
-/* The figure of the channel that a match follows in a run; CZ_N_CHART for none. */
+/* The figure of a match's channel in a run; CZ_N_CHART for none. */
 static CzChart chart_of_match(const CzMatch *match, int n_vehicle, const char *const *vehicle) {
     CzColumn column;
     if (match->file == NULL || match->channel == NULL ||

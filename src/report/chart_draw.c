@@ -33,7 +33,7 @@ static CzSeries *put(Sheet *sheet, CzSeries series) {
     return added;
 }
 
-/* Name of a curve for the cursor of the page, kept with the figure; NULL without memory. */
+/* Name of a curve for the cursor of the page, stored with the figure; NULL without memory. */
 static const char *channel_name(Sheet *sheet, CzDrawn drawn, int place) {
     char name[CZ_CHANNEL_ROOM];
     cz_drawn_name(sheet->page->summary, drawn, place, name);

@@ -209,7 +209,7 @@ void cz_csv_write_interfaces(const CzRunSummary *run, const CzReportOptions *opt
     }
 }
 
-/* Values of a column; `found` keeps where they are, and may be NULL. */
+/* Values of a column; `found` stores their place, and may be NULL. */
 static const double *column_values(const CzRun *run, int i, const double **found) {
     if (found != NULL && found[i] != NULL)
         return found[i];

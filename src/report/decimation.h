@@ -5,9 +5,9 @@
 #include <stdbool.h>
 
 /* Marks in keep[n] the points of the path (x, y) that are drawn, the first and the last always. No
- * point that is left out lies further than the tolerance from the line that replaces it, so peaks
- * stay and loops keep their path. Where more than `most` points would stay the tolerance is
- * doubled. Coordinates are finite. Returns the tolerance that was used; negative without memory. */
+ * omitted point is further than the tolerance from the line that replaces it, so peaks stay and
+ * loops keep their path. Where more than `most` points would stay the tolerance is doubled.
+ * Coordinates are finite. Returns the tolerance that was used; negative without memory. */
 double cz_decimate(int n, const double *x, const double *y, double tolerance, int most, bool *keep);
 
 #endif

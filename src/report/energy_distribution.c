@@ -7,7 +7,7 @@
 #include <math.h>
 
 #define LEFT 76.0
-#define RIGHT 118.0 /* room for the number behind a bar */
+#define RIGHT 118.0 /* space for the number after a bar */
 #define ROW 20.0
 #define TOP 6.0
 

@@ -25,7 +25,7 @@ typedef struct CzFolder {
 /* Checks that a folder can be written, without writing it. Status: CZ_STATUS_OUTPUT. */
 CZ_MUST_CHECK CzStatus cz_folder_check(const char *path, bool replaces_search, CzError *error);
 
-/* Whether a file lies in a folder, or in one inside it, links followed. */
+/* Whether a file is in a folder or its subfolders, following links. */
 bool cz_folder_holds(const char *folder, const char *file);
 
 /* Whether a file is listed in the marker of a result folder. */

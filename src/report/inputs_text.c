@@ -1,5 +1,5 @@
 /* The resolved problem by lines, as cz_problem_write_resolved writes it: two spaces per level, one
- * key a line, the origin behind #. */
+ * key a line, the origin after #. */
 #include "report/inputs_text.h"
 
 #include "base/error.h"

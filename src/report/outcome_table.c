@@ -1,4 +1,4 @@
-/* The results of a search on a terminal: before and after, what is still violated, new values. */
+/* The results of a search on a terminal: before and after, remaining violations, new values. */
 #include "crushzone/report.h"
 
 #include "base/number.h"
@@ -66,7 +66,7 @@ static const char *number_text(char text[CZ_FIGURE_ROOM], const CzVariableInfo *
     return looks_like_bound ? cz_number_print(text, value) : text;
 }
 
-/* A remark beside the values of a variable: that it is fixed, or at its bound; else "". */
+/* A remark next to the values of a variable: that it is fixed, or at its bound; else "". */
 static const char *remark_on(const CzVariableInfo *variable, bool is_at_bound) {
     if (variable->is_fixed)
         return variable->min == variable->max ? "fixed: min = max"

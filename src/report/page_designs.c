@@ -12,7 +12,7 @@
 
 #define TOP 22.0
 #define HEIGHT 190.0
-#define SIDE 44.0  /* beside the first and last axis */
+#define SIDE 44.0  /* next to the first and last axis */
 #define APART 84.0 /* of two axes */
 
 enum { MOST_LINES = 400, MOST_COLUMNS = 4 };

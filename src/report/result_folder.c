@@ -184,7 +184,7 @@ static CzStatus write_run(CzFolder *folder, Results *results, int i, CzError *er
     return CZ_OK;
 }
 
-/* Profiles are in the folder as they are searched for beside a problem file. */
+/* Writes profiles to the subfolder in which they are searched next to a problem file. */
 static CzStatus write_profiles(CzFolder *folder, Results *results, CzError *error) {
     for (const CzSource *source = cz_problem_first_source(results->run.problem); source != NULL;
          source = source->next) {
@@ -265,7 +265,7 @@ CzStatus cz_report_write_folder(const CzReport *report, const char *folder, CzEr
     if (report->kind != CZ_REPORT_SEARCH)
         return write_folder(&results, error);
     CzProblem *best = NULL;
-    CzError mistake = {0}; /* such as a file that has changed meanwhile: then there is no report */
+    CzError mistake = {0}; /* a file may have changed meanwhile: then there is no report */
     const CzStatus read = cz_overlay_read_best(report, &best, &mistake);
     results.run.kind = CZ_REPORT_RUN;
     results.run.evaluation = &report->outcome->best_evaluation;

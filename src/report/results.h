@@ -80,7 +80,7 @@ typedef struct CzResult {
     const char *key;
     CzResultForm form;
     bool is_exact;        /* typed, or an error measure: never rounded to 0 (figure.h) */
-    bool is_total;        /* blank where a part of the run lies beyond model validity */
+    bool is_total;        /* blank where a part of the run is beyond model validity */
     bool is_null_below_0; /* of WHOLE */
     bool is_spread;       /* its records are members of the record itself, by name */
     struct {              /* the member that it is stored in */

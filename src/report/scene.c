@@ -23,8 +23,8 @@ enum { REAR, FRONT };
 typedef struct Outline {
     double body;  /* end of the body, where the crush zone begins */
     double bare;  /* bare end structure at rest */
-    double face;  /* face of the anti-climber at rest; NaN without */
-    double pivot; /* of the coupler; NaN without */
+    double face;  /* face of the anti-climber at rest; NaN if none */
+    double pivot; /* of the coupler; NaN if none */
     double tip;   /* coupling face at rest */
 } Outline;
 

@@ -201,7 +201,7 @@ static double plastic_strokes(const CzBatch *batch, int design) {
     return sum;
 }
 
-/* Rolling resistance over weight of a car and all that it is coupled to. */
+/* Rolling resistance over weight of a car and all cars coupled to it. */
 static double rolling_resistance(const CzBatch *batch, int car, int design) {
     int first = car, last = car;
     while (first > 0 && !cz_interface_can_open(batch, first - 1, design))

@@ -54,7 +54,7 @@ static bool is_at_rest(const CzBatch *batch, int car, int design) {
     return batch->time - load->still_since >= STILL_TIME;
 }
 
-/* Whether the first unloading is still to come. */
+/* Whether the first unloading has not occurred yet. */
 static bool is_to_be_unloaded(CzInterfaceLoad *load, double largest, bool stores) {
     if (largest > load->largest + CLOSURE_GROWS) {
         load->largest = largest;

@@ -163,8 +163,8 @@ static int list_drops(const CzBatch *batch, Drop *drop) {
 
 /* ---- the run --------------------------------------------------------------------------------- */
 
-/* Allowed local errors of the modes. The solvers take the mean of the squares over all unknowns;
- * the thousand modes of a track, most of them at rest, must not dilute it for the vehicles. */
+/* Allowed local errors of the modes. The solvers use the mean of the squares over all unknowns,
+ * which the thousand modes of a track, most of them at rest, must not reduce for the vehicles. */
 static void set_allowed(const CzReference *reference, double tolerance, double *allowed) {
     const size_t n = reference->ode.n_unknown, n_vehicle = 2 * reference->n_place;
     const double share = sqrt((double)n_vehicle / (double)n);

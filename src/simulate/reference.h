@@ -5,9 +5,9 @@
  *
  * A trial state is evaluated from the committed memory, with the time since the commit as the step
  * of the laws; memory is committed when a step is accepted. The laws use return mapping, so force
- * and next memory are continuous in the state. What depends on that step (creep, hydraulic stroke,
- * crush rate) is advanced implicitly over it and converges as steps shrink, to the same limit as
- * under the fixed-step scheme.
+ * and next memory are continuous in the state. Variables that depend on that step (creep, hydraulic
+ * stroke, crush rate) are advanced implicitly over it and converge with decreasing steps to the
+ * same limit as in the fixed-step scheme.
  */
 #ifndef CZ_SIMULATE_REFERENCE_H
 #define CZ_SIMULATE_REFERENCE_H

@@ -1,4 +1,4 @@
-/* A run during and after its simulation: what the files of this folder share. */
+/* A run during and after its simulation: common data of the files of this folder. */
 #ifndef CZ_SIMULATE_RUN_H
 #define CZ_SIMULATE_RUN_H
 

@@ -6,7 +6,7 @@
 
 #define CRUSHED 1e-4 /* plastic stroke from which an element counts as crushed [m] (ours) */
 
-/* Where a watched value comes from. */
+/* Source of a watched value. */
 typedef enum { FROM_MEMORY, FROM_EXTREME, FROM_LIFT_STOP, FROM_BUMP_STOP } Source;
 
 /* A row of the blocks that has watched values. */

@@ -105,8 +105,8 @@ static bool try_titles(CzCurveReading *reading, int line, const char *text, int 
     return has_both;
 }
 
-/* Looks for titles among the lines, then among the comments. The last line that might have been
- * titles stays in `file` when none is. */
+/* Looks for titles among the lines, then among the comments. Without titles the last line that
+ * resembles titles remains in `file`. */
 static bool find_titles(CzCurveReading *reading, bool in_comments, int found[2]) {
     for (int line = reading->first; line < reading->source.n_line; line++) {
         const char *text = reading->source.line[line], *comment = cz_line_comment(text);

@@ -35,8 +35,8 @@ typedef struct CzCurveReading {
     int *next; /* for each line, itself or the first line after it that is neither empty nor a
                   comment; n_line at the end (n_line + 1) */
     int first; /* line after the one that announces the separator */
-    const char *titles; /* NULL without */
-    const char *units;  /* line of units; NULL without */
+    const char *titles; /* NULL if none */
+    const char *units;  /* line of units; NULL if none */
     int title_line, unit_line;
     int data; /* first line of points */
     int index[2];

@@ -62,7 +62,7 @@ const CzUnit *cz_curve_unit_alone(const CzField *field) {
     return cz_curve_unit_find(CZ_N_DIMENSION, text);
 }
 
-/* Whether a unit is listed before under another spelling. */
+/* Whether a unit is earlier in the list with another spelling. */
 static bool is_listed(int unit) {
     for (int i = 0; i < unit; i++)
         if (units[i].dimension == units[unit].dimension && units[i].si == units[unit].si)

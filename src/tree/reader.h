@@ -1,7 +1,7 @@
 /* Common data of all steps from files to records.
  *
  *   load      files -> one tree: `extends` merged, parts of catalogues gathered
- *   settings  `set:` and --set put into the tree
+ *   settings  `set:` and --set applied to the tree
  *   trains    `copy`, `repeat`, `reversed` written out
  *   families  `sweep` of a scenario written out
  *   bind      tree -> typed records, with a place for every value; `use` is taken on the way

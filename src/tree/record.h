@@ -61,7 +61,7 @@ typedef struct CzKey {
     CzUsual usual[2];             /* number: the second is optional */
     double absent;                /* number, count, choice, flag: value when absent */
     CzVariation variation;        /* number: whether a search may change it */
-    const CzWordSet *words;       /* choice: what it may be */
+    const CzWordSet *words;       /* choice: its words */
     const struct CzRecord *child; /* child, list, stages: record inside */
     size_t n_offset;              /* list, stages: of the count of items [byte] */
     const char *x, *y;            /* table: stems of the columns */

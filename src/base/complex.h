@@ -57,7 +57,7 @@ static inline CzComplex cz_complex_root(CzComplex a) {
     return (CzComplex){fabs(small), a.im < 0.0 ? -large : large};
 }
 
-/* Cosine and sine of a number of turns, 2 pi each, of less than 2^50 in size: the fraction of a
+/* Cosine and sine of a number of turns of 2 pi, less than 2^50 in magnitude: the fraction of a
  * turn, a quarter of it by Taylor's series up to pi / 4, and doubled twice. No branch: it may be in
  * a loop over lanes. Accurate to 1e-15. */
 static inline CzComplex cz_turned(double turns) {

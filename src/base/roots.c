@@ -13,11 +13,11 @@ void cz_find_roots(CzLogarithmicSlope *slope, const void *polynomial, int n, CzC
                 if (m != i)
                     pull = cz_complex_difference(
                         pull, cz_complex_inverse(cz_complex_difference(root[i], root[m])));
-            const CzComplex way = cz_complex_inverse(pull);
-            if (!(cz_complex_square_size(way) < 1e300)) /* at a root P'/P is infinite */
+            const CzComplex correction = cz_complex_inverse(pull);
+            if (!(cz_complex_square_size(correction) < 1e300)) /* at a root P'/P is infinite */
                 continue;
-            root[i] = cz_complex_difference(root[i], way);
-            move = fmax(move, cz_complex_size(way) / cz_complex_size(root[i]));
+            root[i] = cz_complex_difference(root[i], correction);
+            move = fmax(move, cz_complex_size(correction) / cz_complex_size(root[i]));
         }
         if (move < LAST_MOVE)
             return;

@@ -219,10 +219,10 @@ static CzStatus write_elevation(const void *data, FILE *stream, CzError *error) 
 static int show_properties(const CzSession *session) {
     CzModel *model = NULL;
     CzError error = {0};
-    const char *asked_for = session->arguments->text[CZ_OPTION_SCENARIO];
+    const char *requested = session->arguments->text[CZ_OPTION_SCENARIO];
     int scenario = 0;
-    if (asked_for != NULL &&
-        cz_problem_find_scenario(session->problem, asked_for, &scenario, &error) != CZ_OK)
+    if (requested != NULL &&
+        cz_problem_find_scenario(session->problem, requested, &scenario, &error) != CZ_OK)
         return cz_session_fail(session, &error);
     const char *svg = session->arguments->text[CZ_OPTION_SVG];
     const int code_of_file = cz_result_check(session->arguments, session->problem, svg);

@@ -43,12 +43,12 @@ static CzStatus read_problem(CzSession *session, CzError *error) {
 /* Collects the options of the command line that change results; --time-step-ms is among the
  * settings. */
 static void list_options(CzSession *session) {
-    static const CzOption told[] = {CZ_OPTION_SCENARIO, CZ_OPTION_INTEGRATOR, CZ_OPTION_ALGORITHM,
-                                    CZ_OPTION_EVALUATIONS, CZ_OPTION_SEED};
+    static const CzOption listed[] = {CZ_OPTION_SCENARIO, CZ_OPTION_INTEGRATOR, CZ_OPTION_ALGORITHM,
+                                      CZ_OPTION_EVALUATIONS, CZ_OPTION_SEED};
     static const char *const words[] = {"--scenario", "--integrator", "--algorithm",
                                         "--evaluations", "--seed"};
-    for (size_t i = 0; i < sizeof told / sizeof *told; i++) {
-        const char *value = session->arguments->text[told[i]];
+    for (size_t i = 0; i < sizeof listed / sizeof *listed; i++) {
+        const char *value = session->arguments->text[listed[i]];
         if (value == NULL)
             continue;
         session->word[session->n_word++] = words[i];

@@ -93,10 +93,10 @@ static void line_up_released(CzCarrier a, CzCarrier b, const CzBlock *d,
     const CzCouplerMemory *restrict memory = &d->memory->coupler;
     const double *restrict tilts = d->parameter.tilts;
     CZ_LANES (i) {
-        const double gone_a =
+        const double sheared_a =
             memory->side[0].shear[i] >= rows->side[0].shear.softening[i] ? tilts[i] : 0.0;
-        const double gone =
-            memory->side[1].shear[i] >= rows->side[1].shear.softening[i] ? tilts[i] : gone_a;
+        const double sheared =
+            memory->side[1].shear[i] >= rows->side[1].shear.softening[i] ? tilts[i] : sheared_a;
         const CzPair pair = cz_pair_of(a, b, &rows->pivot, i);
         const double tilt = 0.5 * (a.displacement->pitch[i] + b.displacement->pitch[i]);
         const double nx = 1.0 / sqrt(1.0 + tilt * tilt), nz = tilt * nx;
@@ -104,16 +104,16 @@ static void line_up_released(CzCarrier a, CzCarrier b, const CzBlock *d,
         const double vx = met.a.velocity_x - met.b.velocity_x;
         const double vz = met.a.velocity_z - met.b.velocity_z;
         line->closure[i] =
-            gone > 0.0 ? rows->along[i] - (nx * pair.x + nz * pair.z) : line->closure[i];
-        line->rate[i] = gone > 0.0 ? nx * vx + nz * vz : line->rate[i];
-        line->turn[i] = gone > 0.0 ? 0.0 : line->turn[i];
-        line->direction_x[i] = gone > 0.0 ? nx : line->direction_x[i];
-        line->direction_z[i] = gone > 0.0 ? nz : line->direction_z[i];
-        line->inverse_length[i] = gone > 0.0 ? 1.0 : line->inverse_length[i];
-        line->arm_x[0][i] = gone > 0.0 ? met.a.arm_x : line->arm_x[0][i];
-        line->arm_z[0][i] = gone > 0.0 ? met.a.arm_z : line->arm_z[0][i];
-        line->arm_x[1][i] = gone > 0.0 ? met.b.arm_x : line->arm_x[1][i];
-        line->arm_z[1][i] = gone > 0.0 ? met.b.arm_z : line->arm_z[1][i];
+            sheared > 0.0 ? rows->along[i] - (nx * pair.x + nz * pair.z) : line->closure[i];
+        line->rate[i] = sheared > 0.0 ? nx * vx + nz * vz : line->rate[i];
+        line->turn[i] = sheared > 0.0 ? 0.0 : line->turn[i];
+        line->direction_x[i] = sheared > 0.0 ? nx : line->direction_x[i];
+        line->direction_z[i] = sheared > 0.0 ? nz : line->direction_z[i];
+        line->inverse_length[i] = sheared > 0.0 ? 1.0 : line->inverse_length[i];
+        line->arm_x[0][i] = sheared > 0.0 ? met.a.arm_x : line->arm_x[0][i];
+        line->arm_z[0][i] = sheared > 0.0 ? met.a.arm_z : line->arm_z[0][i];
+        line->arm_x[1][i] = sheared > 0.0 ? met.b.arm_x : line->arm_x[1][i];
+        line->arm_z[1][i] = sheared > 0.0 ? met.b.arm_z : line->arm_z[1][i];
     }
 }
 
@@ -146,9 +146,9 @@ static int pivots_are_near(const CzBlock *d) {
             chosen(on_a, cz_point_of(ea, i, x_a, z_a).arm_x, cz_point_of(ba, i, x_a, z_a).arm_x);
         const double bx =
             chosen(on_b, cz_point_of(eb, i, x_b, z_b).arm_x, cz_point_of(bb, i, x_b, z_b).arm_x);
-        const double way = chosen(on_b, eb.displacement->x[i], bb.displacement->x[i]) -
-                           chosen(on_a, ea.displacement->x[i], ba.displacement->x[i]);
-        const double along = rows->pivot.distance[i] + way + (bx - x_b) - (ax - x_a);
+        const double moved = chosen(on_b, eb.displacement->x[i], bb.displacement->x[i]) -
+                             chosen(on_a, ea.displacement->x[i], ba.displacement->x[i]);
+        const double along = rows->pivot.distance[i] + moved + (bx - x_b) - (ax - x_a);
         n_near += rows->length[i] - along <= reach[i] ? 0.0 : 1.0; /* a NaN counts as near */
     }
     return n_near > 0.0;

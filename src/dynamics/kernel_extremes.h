@@ -46,20 +46,20 @@ static void face_extremes(CzBlock *d, double time) {
     CzExtremes *restrict kept = &d->extreme;
     CZ_LANES (i) {
         const double pushing = chain[i] > PUSHING ? 1.0 : 0.0;
-        const double gone = remaining[i] <= 0.0 ? pushing : 0.0;
+        const double passed = remaining[i] <= 0.0 ? pushing : 0.0;
         const double engaged = normal[i] > PUSHING ? 1.0 : 0.0;
         const double excess = fabs(demand[i]) - ready[i] + stiffness[i] * slipped[i];
         const double used = pushing > 0.0 ? -remaining[i] : CZ_NOT_YET;
-        const double asked = normal[i] > 0.0 ? excess : CZ_NOT_YET;
+        const double margin_lost = normal[i] > 0.0 ? excess : CZ_NOT_YET;
         kept->face_overlap_time[i] =
             used > kept->face_lost_overlap[i] ? time : kept->face_overlap_time[i];
         kept->face_margin_time[i] =
-            asked > kept->face_lost_margin[i] ? time : kept->face_margin_time[i];
+            margin_lost > kept->face_lost_margin[i] ? time : kept->face_margin_time[i];
         kept->face_lost_overlap[i] = cz_larger(kept->face_lost_overlap[i], used);
-        kept->face_lost_margin[i] = cz_larger(kept->face_lost_margin[i], asked);
+        kept->face_lost_margin[i] = cz_larger(kept->face_lost_margin[i], margin_lost);
         kept->face_ramp[i] = cz_larger(kept->face_ramp[i], engaged * ramp[i]);
-        kept->face_climbed[i] = cz_larger(kept->face_climbed[i], gone);
-        kept->climb_time[i] = cz_larger(kept->climb_time[i], gone > 0.0 ? -time : CZ_NOT_YET);
+        kept->face_climbed[i] = cz_larger(kept->face_climbed[i], passed);
+        kept->climb_time[i] = cz_larger(kept->climb_time[i], passed > 0.0 ? -time : CZ_NOT_YET);
     }
     keep_larger(kept->face_force, normal);
     keep_larger(kept->face_force, d->published.face.top);

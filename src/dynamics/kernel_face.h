@@ -114,11 +114,11 @@ static void grip_faces(CzBlock *d, const Contact *restrict contact) {
             cz_ribs(&law, slip, contact->closure[i], normal[i], memory->sheared[i]);
         const CzSliderResponse held = cz_slider_of(rows->stiffness_vertical[i], compliance[i],
                                                    grip.capacity, slip, offset[i]);
-        const double way = grip.engaged * fabs(held.offset - offset[i]);
+        const double slid = grip.engaged * fabs(held.offset - offset[i]);
         ready[i] = grip.ready;
         next_offset[i] = held.offset;
-        next->slipped[i] = memory->slipped[i] + way;
-        next->sheared[i] = memory->sheared[i] + grip.mesh * way;
+        next->slipped[i] = memory->slipped[i] + slid;
+        next->sheared[i] = memory->sheared[i] + grip.mesh * slid;
         tangential[i] = held.force;
         power[i] += held.force * contact->slip_rate[i];
     }

@@ -48,12 +48,12 @@ static void settle_snap(const CzDynamics *dynamics, const FaceChain *of, FaceSte
             (cz_massless_received_at(dynamics, lane, side, after->stroke[i], after->peak[i]) -
              cz_massless_received_at(dynamics, lane, side, before->stroke[i], before->peak[i]));
     }
-    const double zones = zone[0] + zone[1], faces_went = face[0] + face[1];
+    const double zones = zone[0] + zone[1], both_faces = face[0] + face[1];
     for (int side = 0; side < 2; ++side)
         if (zones > 0.0)
             of->massless[side].next->damped[i] += released * zone[side] / zones;
-        else if (faces_went > 0.0)
-            faces.next->side[side].energy[i] += released * face[side] / faces_went;
+        else if (both_faces > 0.0)
+            faces.next->side[side].energy[i] += released * face[side] / both_faces;
 }
 
 /* After the faces of a block were evaluated. Faces that lose their overlap do no work. */

@@ -103,7 +103,7 @@ static void look_at_rails(const CzDynamics *dynamics, int block) {
         look_at_receptance(dynamics->receptance, d, block);
 }
 
-static void take_work(CzBlock *d, size_t lane, double work) {
+static void transfer_work(CzBlock *d, size_t lane, double work) {
     d->work.track[lane] += work;
     d->work.wheel_normal[lane] -= work;
 }
@@ -121,7 +121,7 @@ static void advance_modes(const CzTrackMotion *track, CzBlock *d, int block) {
         if (under->state == NULL)
             continue;
         press_rails(d, i, under->force);
-        take_work(d, i, cz_track_step(track, under, under->force));
+        transfer_work(d, i, cz_track_step(track, under, under->force));
     }
 }
 
@@ -138,7 +138,7 @@ static void advance_elements(CzElements *elements, CzBlock *d, int block) {
             work += under[i].force[axle] *
                     (cz_elements_past(elements, (size_t)block * CZ_LANE_BLOCK + i, axle) -
                      d->rail[axle].past[i]);
-        take_work(d, i, work);
+        transfer_work(d, i, work);
     }
 }
 

@@ -45,7 +45,7 @@ double cz_track_loss(const CzTrackMotion *track, size_t index);
  * forces, and the track's part of the powers.
  *
  * At t = 0 cz_track_get_state gives the state at rest. Under usual axle loads a state is of the
- * size of 0.01 to 1 sqrt(J s), and 1e-3 of that moves a wheel by about 1 um.
+ * order of 0.01 to 1 sqrt(J s), and 1e-3 of that moves a wheel by about 1 um.
  */
 
 /* Numbers of one car's state. */

@@ -115,7 +115,7 @@ static void multiply(const CzElements *elements, const double *matrix, const CzE
 }
 
 /* x -= l y */
-static inline void take(double *restrict x, double l, const double *restrict y) {
+static inline void subtract(double *restrict x, double l, const double *restrict y) {
     EACH_LANE(k) x[k] -= l * y[k];
 }
 
@@ -124,7 +124,7 @@ static void solve(const CzElements *elements, const double *factor, CzElementsRo
     const size_t n = elements->n, band = elements->band;
     for (size_t i = 0; i < n; ++i)
         for (size_t j = elements->first[i]; j < i; ++j)
-            take(x[i], factor[i * band + band + j], x[j]);
+            subtract(x[i], factor[i * band + band + j], x[j]);
     for (size_t i = 0; i < n; ++i) {
         const double inverse = 1.0 / factor[i * band + band + i];
         double *own = x[i];
@@ -132,7 +132,7 @@ static void solve(const CzElements *elements, const double *factor, CzElementsRo
     }
     for (size_t i = n; i-- > 0;)
         for (size_t j = elements->first[i]; j < i; ++j)
-            take(x[j], factor[i * band + band + j], x[i]);
+            subtract(x[j], factor[i * band + band + j], x[i]);
 }
 
 /* ---- assembly ---- */
@@ -269,10 +269,11 @@ typedef struct Stand {
 } Stand;
 
 static Stand stand_of(const CzElements *elements, const CzElementsUnder *under, double place) {
-    const double l = elements->seats.spacing / elements->nodes, way = (place - under->from) / l;
-    const double node = floor(way);
+    const double l = elements->seats.spacing / elements->nodes,
+                 from_first = (place - under->from) / l;
+    const double node = floor(from_first);
     const size_t first = (size_t)node;
-    return (Stand){node_at(elements, first), node_at(elements, first + 1), way - node};
+    return (Stand){node_at(elements, first), node_at(elements, first + 1), from_first - node};
 }
 
 static double between(const Stand *stand, const CzElementsRow *u, size_t k, const double shape[4]) {
@@ -349,8 +350,8 @@ static void follow(const CzElements *elements, size_t lane, const double place[4
     CzElementsUnder *under = &elements->under[lane];
     const double d = elements->seats.spacing;
     const double centre = under->from + 0.5 * elements->n_bay * d + under->middle;
-    const double way = 0.25 * (place[0] + place[1] + place[2] + place[3]) - centre;
-    const int n_bay = (int)(way / d);
+    const double off_centre = 0.25 * (place[0] + place[1] + place[2] + place[3]) - centre;
+    const int n_bay = (int)(off_centre / d);
     if (n_bay == 0)
         return;
     CzElementsRow *const part[] = {block->u, block->before, block->v};

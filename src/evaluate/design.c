@@ -46,8 +46,8 @@ static bool partner_is_alike(const CzScene *scene, bool mirrored) {
     if (scene->train[0] == scene->train[1] || scene->n_vehicle != 2 * n)
         return false;
     for (int i = 0; i < n; i++) {
-        const CzVehicle *twin = scene->vehicle[mirrored ? 2 * n - 1 - i : n + i];
-        if (!vehicles_are_alike(scene->vehicle[i], twin, mirrored))
+        const CzVehicle *partner = scene->vehicle[mirrored ? 2 * n - 1 - i : n + i];
+        if (!vehicles_are_alike(scene->vehicle[i], partner, mirrored))
             return false;
     }
     return true;
@@ -65,7 +65,7 @@ static size_t mirrored_offset(size_t offset) {
 
 /* The place in the partner that corresponds to `place`; false when this vehicle has no identical
  * partner in this scene. */
-static bool find_twin(const CzScene *scene, const CzDesignPlace *place, CzDesignPlace *twin) {
+static bool find_partner(const CzScene *scene, const CzDesignPlace *place, CzDesignPlace *partner) {
     const bool mirrored = partner_is_alike(scene, true);
     if (!mirrored && !partner_is_alike(scene, false))
         return false;
@@ -74,9 +74,9 @@ static bool find_twin(const CzScene *scene, const CzDesignPlace *place, CzDesign
         if (scene->record[i] != place->vehicle)
             continue;
         const int other = mirrored ? 2 * n - 1 - i : (i + n) % (2 * n);
-        *twin = *place;
-        twin->vehicle = scene->record[other];
-        twin->offset = mirrored ? mirrored_offset(place->offset) : place->offset;
+        *partner = *place;
+        partner->vehicle = scene->record[other];
+        partner->offset = mirrored ? mirrored_offset(place->offset) : place->offset;
         return true;
     }
     return false;
@@ -157,20 +157,20 @@ static CzStatus add_shown(const Builder *builder, CzDesignVariable *variable,
 /* Fails where a variable changes only one of two identical trains, because a search could then
  * soften the partner.
  */
-static CzStatus check_twins(const Builder *builder, const void *field,
-                            const CzDesignVariable *variable) {
+static CzStatus check_partners(const Builder *builder, const void *field,
+                               const CzDesignVariable *variable) {
     for (int i = 0; i < variable->n_place; i++)
         for (int s = 0; s < builder->n_scene; s++) {
-            CzDesignPlace twin;
-            if (!find_twin(&builder->scene[s], &variable->place[i], &twin) ||
-                drives(variable, &twin))
+            CzDesignPlace partner;
+            if (!find_partner(&builder->scene[s], &variable->place[i], &partner) ||
+                drives(variable, &partner))
                 continue;
             return cz_problem_fail(
                 builder->problem, field, builder->error,
                 "'%s' changes '%s' but not its counterpart in '%s': the two trains are identical "
                 "and must share every variable; vary a part, or tie both with 'paths'",
                 variable->info.name, name_of(&builder->vehicles[variable->place[i].vehicle]),
-                name_of(&builder->vehicles[twin.vehicle]));
+                name_of(&builder->vehicles[partner.vehicle]));
         }
     return CZ_OK;
 }
@@ -319,7 +319,7 @@ static CzStatus add_variable(Builder *builder, const CzVariable *written, int ma
     settle_start(&variable->info);
     CZ_TRY(check_variable(builder, written, variable));
     if (!design->is_fit)
-        CZ_TRY(check_twins(builder, field_of(written), variable));
+        CZ_TRY(check_partners(builder, field_of(written), variable));
     design->n_variable++;
     if (cz_design_n_combination(design) > CZ_MOST_COMBINATIONS)
         return cz_problem_fail(builder->problem, &written->choices, builder->error,

@@ -186,10 +186,10 @@ static void sort_block(Block *block) {
     }
 }
 
-/* `wish` contains the settings of the runs and the results to keep. */
-static CzStatus evaluate_block(const Block *wish, int n_point, const double *x,
+/* `settings` contains the settings of the runs and the results to keep. */
+static CzStatus evaluate_block(const Block *settings, int n_point, const double *x,
                                CzEvaluation *evaluation, double *detail, CzError *error) {
-    Block block = *wish;
+    Block block = *settings;
     const CzEvaluator *evaluator = block.evaluator;
     block.n_point = n_point;
     block.x = x;
@@ -224,15 +224,15 @@ static CzStatus evaluate_block(const Block *wish, int n_point, const double *x,
 }
 
 /* Evaluates all designs, block after block. */
-static CzStatus evaluate_all(const Block *wish, int n_point, const double *x,
+static CzStatus evaluate_all(const Block *settings, int n_point, const double *x,
                              CzEvaluation *evaluation, double *detail, CzError *error) {
-    const CzEvaluator *evaluator = wish->evaluator;
+    const CzEvaluator *evaluator = settings->evaluator;
     memset(evaluation, 0, (size_t)n_point * sizeof *evaluation);
     CzStatus status = CZ_OK;
     for (int first = 0; first < n_point && status == CZ_OK; first += BLOCK) {
         const int n = n_point - first < BLOCK ? n_point - first : BLOCK;
         status =
-            evaluate_block(wish, n, x != NULL ? x + first * evaluator->design.n_variable : NULL,
+            evaluate_block(settings, n, x != NULL ? x + first * evaluator->design.n_variable : NULL,
                            evaluation + first,
                            detail != NULL ? detail + first * evaluator->n_detail : NULL, error);
     }
@@ -243,26 +243,26 @@ static CzStatus evaluate_all(const Block *wish, int n_point, const double *x,
 
 CzStatus cz_evaluate(CzEvaluator *evaluator, int n_point, const double *x, bool keep_runs,
                      CzEvaluation *evaluation, CzError *error) {
-    const Block wish = {.evaluator = evaluator,
-                        .record = keep_runs,
-                        .keep = keep_runs,
-                        .manner = evaluator->manner};
-    return evaluate_all(&wish, n_point, x, evaluation, NULL, error);
+    const Block settings = {.evaluator = evaluator,
+                            .record = keep_runs,
+                            .keep = keep_runs,
+                            .manner = evaluator->manner};
+    return evaluate_all(&settings, n_point, x, evaluation, NULL, error);
 }
 
 CzStatus cz_evaluator_search(const CzEvaluator *evaluator, int n_point, const double *x,
                              CzEvaluation *evaluation, double *detail, CzError *error) {
-    const Block wish = {.evaluator = evaluator,
-                        .manner = {.step_factor = evaluator->manner.step_factor,
-                                   .integrator = CZ_INTEGRATOR_ZHAI,
-                                   .brief = true}};
-    return evaluate_all(&wish, n_point, x, evaluation, detail, error);
+    const Block settings = {.evaluator = evaluator,
+                            .manner = {.step_factor = evaluator->manner.step_factor,
+                                       .integrator = CZ_INTEGRATOR_ZHAI,
+                                       .brief = true}};
+    return evaluate_all(&settings, n_point, x, evaluation, detail, error);
 }
 
 CzStatus cz_evaluator_again(const CzEvaluator *evaluator, const CzManner *manner, const double *x,
                             CzEvaluation *evaluation, CzError *error) {
-    const Block wish = {.evaluator = evaluator, .keep = true, .manner = *manner};
-    return evaluate_all(&wish, 1, x, evaluation, NULL, error);
+    const Block settings = {.evaluator = evaluator, .keep = true, .manner = *manner};
+    return evaluate_all(&settings, 1, x, evaluation, NULL, error);
 }
 
 void cz_evaluation_free(CzEvaluation *evaluation) {

@@ -303,8 +303,9 @@ bool cz_fit_lines(CzArena *arena, const CzBranch *branch, const CzLines *lines, 
     if (n_stroke < 0)
         return false;
     const int room = n_stroke + 1; /* largest number of stages between the strokes */
-    const int asked = lines->n_stage > 0 ? lines->n_stage : lines->n_most;
-    const int last = asked < room ? asked : room, n_stage = lines->n_stage > 0 ? last : -1;
+    const int n_requested = lines->n_stage > 0 ? lines->n_stage : lines->n_most;
+    const int last = n_requested < room ? n_requested : room,
+              n_stage = lines->n_stage > 0 ? last : -1;
     for (int n = n_stage > 0 ? n_stage : 1; n <= last; n++) {
         found[n - 1] = cz_staged_begin(false);
         found[n - 1].n_stage = n;

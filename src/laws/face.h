@@ -34,8 +34,8 @@ static inline CzFaceResponse cz_face(const CzFaceLaw *law, double chain, double 
     CzFaceResponse response;
     response.damped = cz_smaller(wanted, chain);
     response.remaining = law->overlap - fabs(slip);
-    const double gone = 1.0 - cz_clamp(response.remaining / law->pitch, 0.0, 1.0);
-    const double most = cz_larger(lost, gone);
+    const double released = 1.0 - cz_clamp(response.remaining / law->pitch, 0.0, 1.0);
+    const double most = cz_larger(lost, released);
     response.held = 1.0 - most;
     response.lost = closure > 0.0 ? most : 0.0;
     response.normal = response.held * (chain + response.damped);

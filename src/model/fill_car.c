@@ -227,10 +227,10 @@ static void fill_drag(const Car *car) {
     const CzBrake *brake = car->place->brake;
     CzDragRows *rows = &car->rows->drag;
     const Friction friction = friction_of(model);
-    const double weight = car->statics->weight, asked = car->place->brake_ratio;
+    const double weight = car->statics->weight, brake_ratio = car->place->brake_ratio;
     const double braked = brake == NULL ? 0.0 : brake->axle_share * weight;
-    const double ratio = fmin(asked, friction.peak);
-    const bool locks = asked > friction.peak;
+    const double ratio = fmin(brake_ratio, friction.peak);
+    const bool locks = brake_ratio > friction.peak;
     rows->brake[car->i] = ratio * braked;
     rows->brake_sliding[car->i] = (locks ? friction.sliding : ratio) * braked;
     rows->rolling[car->i] = car->vehicle->rolling_resistance * weight;

@@ -127,18 +127,18 @@ static bool evaluate(Bridge *bridge, int n_point) {
 }
 
 /* Makes sure that the value (and gradient) at u is known; false once the run has ended. */
-static bool prepare(Bridge *bridge, const double *given, bool wants_gradient) {
+static bool prepare(Bridge *bridge, const double *given, bool with_gradient) {
     const int n = bridge->n, m = bridge->m;
     const CzFunction *function = bridge->search->function;
     const bool same = bridge->has_value && memcmp(bridge->u, given, (size_t)n * sizeof *given) == 0;
-    if (same && (bridge->has_gradient || !wants_gradient))
+    if (same && (bridge->has_gradient || !with_gradient))
         return true;
     double *u = bridge->u;
     memcpy(u, given, (size_t)n * sizeof *u);
     int n_point = 0;
     if (!same)
         cz_search_unscale(bridge->search, 1, u, bridge->x + n * n_point++);
-    for (int i = 0; wants_gradient && i < n; i++, n_point++) {
+    for (int i = 0; with_gradient && i < n; i++, n_point++) {
         const double kept = u[i];
         u[i] = fmin(fmax(kept, 0), 1);
         u[i] += cz_search_secant(u[i], bridge->run->secant);
@@ -155,8 +155,8 @@ static bool prepare(Bridge *bridge, const double *given, bool wants_gradient) {
             bridge->c[j] = bridge->many_c[j] + bridge->run->reserve;
     }
     bridge->has_value = true;
-    bridge->has_gradient = wants_gradient;
-    for (int i = 0; wants_gradient && i < n; i++) {
+    bridge->has_gradient = with_gradient;
+    for (int i = 0; with_gradient && i < n; i++) {
         const int point = i + !same;
         const double h = cz_search_secant(fmin(fmax(u[i], 0), 1), bridge->run->secant);
         bridge->df[i] = (bridge->many_f[point] / bridge->scale - bridge->f) / h;

@@ -67,7 +67,7 @@ static double distance_from_base(const CzSurface *surface, const double *u) {
 
 /* The listed design that equals a new one on the planes: a simulation of both would add no
  * information. NULL when there is none. */
-static Design *find_alike(Shortlist *list, const Design *new) {
+static Design *find_equal(Shortlist *list, const Design *new) {
     const double close = 1e-3; /* of a margin; ours */
     for (int i = 0; i < list->n_design; i++)
         if (fabs(new->penalty - list->design[i].penalty) < close &&
@@ -87,13 +87,13 @@ static void offer(Shortlist *list, const double *x) {
         return;
     new->objective = cz_surface_predict(surface, list->u, &new->penalty);
     new->distance = distance_from_base(surface, list->u);
-    Design *alike = find_alike(list, new);
-    if (alike == NULL ? at == BATCH && !is_before(new, &list->design[BATCH - 1])
-                      : new->distance >= alike->distance)
+    Design *equal = find_equal(list, new);
+    if (equal == NULL ? at == BATCH && !is_before(new, &list->design[BATCH - 1])
+                      : new->distance >= equal->distance)
         return;
     memcpy(new->x, x, (size_t)surface->n * sizeof *x);
-    if (alike != NULL) {
-        swap(new, alike);
+    if (equal != NULL) {
+        swap(new, equal);
         return;
     }
     for (; new > list->design &&is_before(new, new - 1); new --)

@@ -64,7 +64,7 @@ const char *cz_channel_name(const CzChannelInfo *info, int place, const char *na
 typedef struct Search {
     const char *text;
     CzColumn *column;
-    bool is_asked; /* search the nearest name */
+    bool suggests; /* search the nearest name */
     CzSuggestion suggestion;
 } Search;
 
@@ -78,7 +78,7 @@ static bool try_places(Search *search, CzChannel channel, int index, const char 
             *search->column = (CzColumn){channel, place};
             return true;
         }
-        if (search->is_asked)
+        if (search->suggests)
             cz_suggest(&search->suggestion, search->text, text);
     }
     return false;
@@ -86,7 +86,7 @@ static bool try_places(Search *search, CzChannel channel, int index, const char 
 
 bool cz_column_find(const char *text, int n_vehicle, const char *const *vehicle, CzColumn *column,
                     char nearest[CZ_CHANNEL_ROOM]) {
-    Search search = {.text = text, .column = column, .is_asked = nearest != NULL};
+    Search search = {.text = text, .column = column, .suggests = nearest != NULL};
     for (CzChannel channel = 0; channel < CZ_N_CHANNEL; channel++) {
         const CzChannelAt at = channels[channel].at;
         const int n = at == CZ_AT_RUN ? 1 : at == CZ_AT_INTERFACE ? n_vehicle - 1 : n_vehicle;

@@ -35,8 +35,8 @@ static Names names_of(const CzRules *rules) {
     return (Names){rules, {.arena = rules->mistakes->arena}};
 }
 
-/* Adds the name of the record of a number; the number of the first record that has it, which is
- * this one unless the name is there already. */
+/* Adds the name of a numbered record; returns the number of the first record with that name, which
+ * is this one if the name is new. */
 static int add(Names *names, const char *name, int number) {
     const size_t n = strlen(name);
     const int first = cz_index_find(&names->index, name, n);

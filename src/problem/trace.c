@@ -12,7 +12,7 @@
 #define FORCE_NOISE 0.02  /* of the largest force: a smaller one counts as zero (ours) */
 #define MOST_TURNS                                                                                 \
     3 /* of strokes in some order: a wiggle before the load, and the unloading (ours) */
-#define CONTACT 0.01     /* of the largest force: threshold of its beginning (ours) */
+#define CONTACT 0.01     /* of the largest force: contact begins there (ours) */
 #define FREE_TRAVEL 0.05 /* of the stroke: more without force is reported (ours) */
 #define UNLOADED 0.8     /* an unloading ends below this share of the force (ours) */
 #define UNLOADING 1e-3   /* of the stroke: a smaller decrease is not an unloading (ours) */
@@ -177,16 +177,16 @@ static bool check_turns(const Making *making) {
     const CzTrace *trace = making->trace;
     const Range x = range_of(trace->x, trace->n);
     const double noise = STROKE_NOISE * (x.largest - x.least);
-    int n_turn = 0, way = 0, first = 0;
+    int n_turn = 0, direction = 0, first = 0;
     double extreme = trace->x[0], turned_at = extreme;
     for (int i = 1; i < trace->n; i++) {
         const double move = trace->x[i] - extreme;
-        if (way != 0 && move * way < -noise && n_turn++ == 0) {
+        if (direction != 0 && move * direction < -noise && n_turn++ == 0) {
             first = i;
             turned_at = extreme;
         }
-        if (fabs(move) > noise || move * way > 0.0) {
-            way = move > 0.0 ? 1 : -1;
+        if (fabs(move) > noise || move * direction > 0.0) {
+            direction = move > 0.0 ? 1 : -1;
             extreme = trace->x[i];
         }
     }

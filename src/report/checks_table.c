@@ -184,7 +184,7 @@ void cz_checks_write_rows(CzMarkup *markup, const CzEvaluation *evaluation,
     cz_table_write_page(&table, markup);
 }
 
-static void say_verdict(CzTerminal *terminal, CzVerdict verdict) {
+static void write_verdict(CzTerminal *terminal, CzVerdict verdict) {
     cz_terminal_say(terminal, verdict_styles[verdict], "%s", verdict_words[verdict]);
 }
 
@@ -201,11 +201,11 @@ static void write_count(const CzEvaluation *evaluation, CzTerminal *terminal) {
         if (n[order[i]] == 0)
             continue;
         fprintf(terminal->stream, "%s%d ", between, n[order[i]]);
-        say_verdict(terminal, order[i]);
+        write_verdict(terminal, order[i]);
         between = ", ";
     }
     fputs(". Verdict: ", terminal->stream);
-    say_verdict(terminal, evaluation->verdict);
+    write_verdict(terminal, evaluation->verdict);
     fputs(".\n", terminal->stream);
 }
 
@@ -222,7 +222,7 @@ static void write_omitted(const CzEvaluation *evaluation, CzTerminal *terminal) 
     if (n == 0)
         return;
     fprintf(terminal->stream, "%d check%s of scenarios that were not run: ", n, n == 1 ? "" : "s");
-    say_verdict(terminal, CZ_VERDICT_NOT_CHECKED);
+    write_verdict(terminal, CZ_VERDICT_NOT_CHECKED);
     fputs(".\n", terminal->stream);
 }
 

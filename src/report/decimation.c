@@ -37,8 +37,8 @@ static int furthest(const double *x, const double *y, Span span, double toleranc
 
 /* Decimates with one tolerance; returns the number of points kept. `stack` has room for n spans,
  * which suffices, because every split adds one and a span of one step is not split. */
-static int thin_once(int n, const double *x, const double *y, double tolerance, bool *keep,
-                     Span *stack) {
+static int decimate_once(int n, const double *x, const double *y, double tolerance, bool *keep,
+                         Span *stack) {
     int n_stack = 0, n_kept = n > 1 ? 2 : n;
     memset(keep, 0, (size_t)n * sizeof *keep);
     keep[0] = keep[n - 1] = true;
@@ -63,7 +63,7 @@ double cz_decimate(int n, const double *x, const double *y, double tolerance, in
     Span *stack = malloc((size_t)(n + 1) * sizeof *stack);
     if (stack == NULL)
         return -1;
-    while (thin_once(n, x, y, tolerance, keep, stack) > most && most > 2)
+    while (decimate_once(n, x, y, tolerance, keep, stack) > most && most > 2)
         tolerance *= 2;
     free(stack);
     return tolerance;

@@ -50,7 +50,7 @@ CZ_MUST_CHECK CzStatus cz_folder_finish(CzFolder *folder, CzError *error);
 /* Removes what was written. */
 void cz_folder_abandon(CzFolder *folder);
 
-/* Closes a stream; 0, or the errno of what could not be written. */
+/* Closes a stream; returns 0, or the errno of a failure to write. */
 int cz_stream_close(FILE *stream);
 
 #endif

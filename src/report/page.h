@@ -132,7 +132,7 @@ void cz_page_folder_name(const char *scenario, char name[CZ_NAME_ROOM]);
 /* ---- parts of the report of a search ---- */
 
 /* The most critical constraint that is not among the first n; -1 when there is none. */
-int cz_page_next_constraint(const CzEvaluation *evaluation, int n_told, const int *told);
+int cz_page_next_constraint(const CzEvaluation *evaluation, int n_listed, const int *listed);
 
 /* All designs of the search as lines over the variables (page_designs.c); nothing for fewer than
  * two variables. */

@@ -48,7 +48,7 @@ static const int most_decimals[CZ_N_DRAWN] = {[CZ_DRAWN_TIME] = FINEST_TIME,
                                               [CZ_DRAWN_BALANCE_ERROR] = 6};
 
 /* Adds the samples at which a channel is largest and smallest. */
-static void take_extremes(const double *value, int n, bool *taken) {
+static void mark_extremes(const double *value, int n, bool *taken) {
     int high = 0, low = 0;
     for (int i = 1; i < n; i++) {
         high = value[i] > value[high] ? i : high;
@@ -67,7 +67,7 @@ static void choose(const CzPage *page, bool *taken) {
         const CzColumn column = cz_run_column(page->run, i);
         if (column.channel == CZ_CHANNEL_INTERFACE_FORCE ||
             column.channel == CZ_CHANNEL_BODY_ACCELERATION)
-            take_extremes(cz_run_channel(page->run, column.channel, column.place), n, taken);
+            mark_extremes(cz_run_channel(page->run, column.channel, column.place), n, taken);
     }
     for (int i = 0; i < page->summary->n_event; i++) {
         const double time = page->summary->event[i].time * CZ_MILLI_PER_UNIT;

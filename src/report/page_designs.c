@@ -174,16 +174,16 @@ CzStatus cz_page_write_designs(CzMarkup *markup, const CzReport *report, CzError
 
 /* ---- sensitivities ---- */
 
-int cz_page_next_constraint(const CzEvaluation *evaluation, int n_told, const int *told) {
+int cz_page_next_constraint(const CzEvaluation *evaluation, int n_listed, const int *listed) {
     int found = -1;
     for (int i = 0; i < evaluation->n_constraint; i++) {
         const bool is_flag =
             evaluation->constraint_check != NULL && evaluation->constraint_check[i].is_flag;
-        bool is_told =
+        bool is_listed =
             !isfinite(evaluation->constraint[i]) || (is_flag && evaluation->constraint[i] <= 0);
-        for (int k = 0; k < n_told; k++)
-            is_told |= told[k] == i;
-        if (!is_told && (found < 0 || evaluation->constraint[i] > evaluation->constraint[found]))
+        for (int k = 0; k < n_listed; k++)
+            is_listed |= listed[k] == i;
+        if (!is_listed && (found < 0 || evaluation->constraint[i] > evaluation->constraint[found]))
             found = i;
     }
     return found;

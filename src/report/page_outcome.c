@@ -142,15 +142,15 @@ static void write_active(CzMarkup *markup, const CzReport *report) {
                     "<section id='active'>\n<h2>Active constraints of the best design</h2>\n"
                     "<p>The most critical constraints; a negative margin is violated.</p>");
     cz_table_begin(&table, "constraint;" CZ_CONSTRAINT_HEADS);
-    int told[MOST_CONSTRAINTS];
+    int listed[MOST_CONSTRAINTS];
     for (int n = 0; n < MOST_CONSTRAINTS; n++) {
-        told[n] = cz_page_next_constraint(best, n, told);
-        if (told[n] < 0)
+        listed[n] = cz_page_next_constraint(best, n, listed);
+        if (listed[n] < 0)
             break;
         const bool is_flag =
-            best->constraint_check != NULL && best->constraint_check[told[n]].is_flag;
-        cz_outcome_put_constraint(&table, report->evaluator, best, told[n],
-                                  is_flag ? NAN : -best->constraint[told[n]]);
+            best->constraint_check != NULL && best->constraint_check[listed[n]].is_flag;
+        cz_outcome_put_constraint(&table, report->evaluator, best, listed[n],
+                                  is_flag ? NAN : -best->constraint[listed[n]]);
     }
     cz_table_write_page(&table, markup);
     cz_markup_write(markup, "</section>\n");

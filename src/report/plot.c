@@ -121,7 +121,7 @@ static void widen(double value, double *smallest, double *largest) {
 }
 
 /* Makes a range that is not empty and a little wider than the numbers. */
-static void give_room(double *smallest, double *largest, double share) {
+static void add_margin(double *smallest, double *largest, double share) {
     if (!(*smallest <= *largest))
         *smallest = 0, *largest = 1;
     const double size = fmax(fabs(*smallest), fabs(*largest));
@@ -151,8 +151,8 @@ static Frame frame_of(const CzPlot *plot) {
         widen(plot->limit[i].at, &frame.y_min, &frame.y_max);
     if (plot->from_zero)
         widen(0, &frame.y_min, &frame.y_max);
-    give_room(&frame.x_min, &frame.x_max, 0);
-    give_room(&frame.y_min, &frame.y_max, 0.05);
+    add_margin(&frame.x_min, &frame.x_max, 0);
+    add_margin(&frame.y_min, &frame.y_max, 0.05);
     return frame;
 }
 

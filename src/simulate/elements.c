@@ -19,7 +19,7 @@ static void name_element(CzElementResult *result, const CzBatch *batch) {
              batch->model->car[result->vehicle].name);
 }
 
-static void take(CzElementResult *result, CzAccount account) {
+static void add_account(CzElementResult *result, CzAccount account) {
     result->stored += account.stored;
     result->energy += account.received - account.stored;
 }
@@ -54,7 +54,7 @@ static bool fill_absorber(const CzBatch *batch, const Absorber *absorber, size_t
         return false;
     result->kind = absorber->kind;
     result->vehicle = car;
-    take(result, absorber->account(batch, lane, side));
+    add_account(result, absorber->account(batch, lane, side));
     result->tube_energy = cz_memory(batch, absorber->tube_energy[side], lane);
     result->zone_energy[CZ_ZONE_CRUSH] = result->tube_energy;
     result->stroke = cz_memory(batch, absorber->stroke[side], lane);
@@ -73,7 +73,7 @@ static bool fill_superstructure(const CzBatch *batch, size_t lane, int car,
         return false;
     result->kind = CZ_ELEMENT_SUPERSTRUCTURE;
     result->vehicle = car;
-    take(result, cz_superstructure_account(batch, lane));
+    add_account(result, cz_superstructure_account(batch, lane));
     result->tube_energy = result->energy;
     result->zone_energy[CZ_ZONE_SURVIVAL] = fmax(result->energy, 0.0);
     result->stroke = 0.5 * cz_memory(batch, CZ_MEMORY(superstructure.set), lane);
@@ -87,7 +87,7 @@ static bool fill_draw_gear(const CzBatch *batch, size_t lane, int car, CzElement
         return false;
     result->kind = CZ_ELEMENT_DRAW_GEAR;
     result->vehicle = car;
-    take(result, cz_draw_gear_account(batch, lane));
+    add_account(result, cz_draw_gear_account(batch, lane));
     result->peak_force = cz_extreme(batch, CZ_EXTREME(draw_gear_force), lane);
     return true;
 }
@@ -133,17 +133,17 @@ static double share_of_faces(const CzBatch *batch, int car, int design, int side
     return has_end(batch, other, design, 1 - side) ? 0.5 : 1.0;
 }
 
-static void take_faces(const CzBatch *batch, size_t lane, double share, CzElementResult *result) {
+static void add_faces(const CzBatch *batch, size_t lane, double share, CzElementResult *result) {
     const CzAccount faces = cz_bare_faces_account(batch, lane);
-    take(result, (CzAccount){share * faces.received, share * faces.stored});
+    add_account(result, (CzAccount){share * faces.received, share * faces.stored});
 }
 
 /* Crush zone of an end with mass, with the guidance and the hinge of the mass. */
 static void fill_end_mass(const CzBatch *batch, size_t own, int which, CzElementResult *result) {
     result->kind = CZ_ELEMENT_END;
-    take(result, cz_crush_account(batch, own, which));
+    add_account(result, cz_crush_account(batch, own, which));
     result->tube_energy = result->energy;
-    take(result, cz_end_mass_account(batch, own, which));
+    add_account(result, cz_end_mass_account(batch, own, which));
     result->stroke = cz_memory(batch, CZ_MEMORY(end[which].peak), own);
     result->peak_force = cz_extreme(batch, CZ_EXTREME(end_force[which]), own);
 }
@@ -157,14 +157,14 @@ static bool fill_end(const CzBatch *batch, size_t lane, int side, int car, int d
         fill_end_mass(batch, cz_lane(batch, car, design), 1 - side, result);
     else {
         result->kind = CZ_ELEMENT_END;
-        take(result, cz_massless_account(batch, lane, side));
+        add_account(result, cz_massless_account(batch, lane, side));
         result->tube_energy = result->energy;
         result->energy += cz_memory(batch, CZ_MEMORY(face.side[side].massless.damped), lane);
         result->stroke = cz_memory(batch, CZ_MEMORY(face.side[side].massless.peak), lane);
         result->peak_force = cz_extreme(batch, CZ_EXTREME(face_force), lane);
     }
     result->vehicle = car;
-    take_faces(batch, lane, share_of_faces(batch, car, design, side), result);
+    add_faces(batch, lane, share_of_faces(batch, car, design, side), result);
     return true;
 }
 

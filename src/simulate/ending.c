@@ -16,7 +16,7 @@ enum { LOOKS_BETWEEN_ENERGY_CHECKS = 64 }; /* (ours) */
 #define CLOSING_SPEED 0.1 /* [m/s] */
 #define MEETING_SHARE 0.4 /* a sixth of the first impact's energy (ours) */
 #define ROUNDING 1e-9     /* relative difference of two equal means */
-#define FLOW 1e-6         /* growth of the plastic strokes that counts as crushing [m] (ours) */
+#define CRUSHING 1e-6     /* growth of the plastic strokes that counts as crushing [m] (ours) */
 #define LARGEST_IMBALANCE 1e-2 /* of the initial energy */
 #define LARGEST_RESIDUAL 1e-6  /* closure that a chain may leave unbalanced [m] (ours) */
 #define LARGEST_LAW_ERROR                                                                          \
@@ -100,7 +100,7 @@ static bool fails_to_balance(CzBatch *batch, int design) {
 
 /* Fails the design when its energies are inconsistent; examined at intervals and at the end.
  */
-static void fail_its_energy_checks(CzBatch *batch, int design) {
+static void check_energies(CzBatch *batch, int design) {
     char where[CZ_FAULT_ROOM], what[CZ_FAULT_ROOM];
     CzProgressOfDesign *progress = &batch->design[design];
     const bool is_time = progress->n_look++ % LOOKS_BETWEEN_ENERGY_CHECKS == 0;
@@ -219,7 +219,7 @@ static double rolling_resistance(const CzBatch *batch, int car, int design) {
 
 /* Lower bound of the later speed of a car: zero where it brakes or its rolling resistance exceeds
  * that of the car behind it, its present speed where it rolls. */
-static double rest_or_speed(const CzBatch *batch, int car, int design) {
+static double lowest_speed(const CzBatch *batch, int car, int design) {
     const size_t lane = cz_lane(batch, car, design);
     const bool is_slowed =
         car > 0 && rolling_resistance(batch, car, design) >
@@ -236,7 +236,7 @@ typedef struct Ahead {
 
 static Ahead car_ahead(const CzBatch *batch, int car, int design) {
     const size_t lane = cz_lane(batch, car, design);
-    return (Ahead){cz_velocity(batch, CZ_DOF(body.x), lane), rest_or_speed(batch, car, design),
+    return (Ahead){cz_velocity(batch, CZ_DOF(body.x), lane), lowest_speed(batch, car, design),
                    cz_car_equipment(batch->lanes, lane).slowing};
 }
 
@@ -280,18 +280,18 @@ static bool can_meet_again(const CzBatch *batch, int design) {
         for (size_t k = 0; k < sizeof forces / sizeof forces[0]; ++k)
             together |= cz_memory(batch, forces[k], lane) > 0.0;
         const double behind = cz_velocity(batch, CZ_DOF(body.x), lane);
-        if (!together && behind - rest_or_speed(batch, car + 1, design) > CLOSING_SPEED)
+        if (!together && behind - lowest_speed(batch, car + 1, design) > CLOSING_SPEED)
             return true;
     }
     return false;
 }
 
 /* The condition that the end criterion still waits for; NULL when it is met. */
-static const char *awaited(const CzBatch *batch, int design, bool off, bool flows,
+static const char *awaited(const CzBatch *batch, int design, bool off, bool crushes,
                            const CzLoadLeft *left) {
     const bool closes_in = cz_largest_closing_speed(batch, design) > CLOSING_SPEED;
     return off                             ? "a wheel is off its rail"
-           : flows                         ? "a device still crushes or slides"
+           : crushes                       ? "a device still crushes or slides"
            : left->force                   ? "cars that can part still carry a contact force"
            : left->stores                  ? "elastic energy is still stored between cars"
            : closes_in                     ? "neighbouring cars close in"
@@ -349,13 +349,13 @@ static void look_at(CzBatch *batch, int design, bool finite) {
         cz_train_speed(batch, 0, design) <= cz_train_speed(batch, 1, design))
         progress->wheel_rail = cz_wheel_rail_work(batch, design);
     const double strokes = plastic_strokes(batch, design);
-    const bool flows = strokes - progress->plastic > FLOW;
+    const bool crushes = strokes - progress->plastic > CRUSHING;
     progress->plastic = strokes;
     const bool off = wheels_are_off(batch, design);
     const CzLoadLeft left = cz_interface_loads_look(batch, design);
     const double initial = progress->initial_energy;
-    progress->awaited = awaited(batch, design, off, flows, &left);
-    const bool settled = batch->brief && !off && !flows &&
+    progress->awaited = awaited(batch, design, off, crushes, &left);
+    const bool settled = batch->brief && !off && !crushes &&
                          left.energy <= MEETING_SHARE * MEETING_SHARE * initial &&
                          meeting_speed(batch, design) <= MEETING_SHARE * batch->closing_speed;
     progress->quiet_since =
@@ -373,7 +373,7 @@ static void look_at(CzBatch *batch, int design, bool finite) {
     } else if (batch->time >= model->longest) {
         end(progress, CZ_ENDED_INCOMPLETE);
     }
-    fail_its_energy_checks(batch, design);
+    check_energies(batch, design);
 }
 
 bool cz_ending_look(CzBatch *batch) {

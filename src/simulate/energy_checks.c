@@ -33,7 +33,7 @@
 /* Of the initial energy: springs of the running gear, whose power is summed over oscillations of up
  * to half the largest stable step; four times the largest of 400 random designs (ours). */
 #define SPRINGS_SHARE 1e-5
-/* Of the initial energy: as for the energy balance, which all these differences add up to (ours).
+/* Of the initial energy: as for the energy balance, which is the sum of these differences (ours).
  */
 #define AGREED_SHARE 1e-2
 

@@ -76,8 +76,8 @@ const CzNode *cz_node_name(CzArena *arena, const char *name, const CzNode *place
  * shared. NULL without memory. */
 CzNode *cz_node_copy(CzArena *arena, const CzNode *node, int n_more);
 
-/* Copy of a list or mapping with another value in one of its entries; NULL without memory, and when
- * the value is NULL for lack of it. */
+/* Copy of a list or mapping with another value in one of its entries; NULL without memory, also
+ * when that is the reason for a NULL value. */
 const CzNode *cz_node_with(CzArena *arena, const CzNode *node, const CzEntry *entry,
                            const CzNode *value);
 
@@ -86,7 +86,7 @@ const CzNode *cz_node_with(CzArena *arena, const CzNode *node, const CzEntry *en
 CzNode *cz_node_without(CzArena *arena, const CzNode *mapping, const char *keys, int n_more);
 
 /* Appends an entry to a copy with room for it; `place` is that of its key. False without memory,
- * and when the value is NULL for lack of it. */
+ * also when that is the reason for a NULL value. */
 bool cz_node_append(CzArena *arena, CzNode *mapping, const char *key, const CzNode *place,
                     const CzNode *value, const CzTrail *trail);
 

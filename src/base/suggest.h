@@ -25,7 +25,7 @@ bool cz_suggest(CzSuggestion *suggestion, const char *typed, const char *known);
 int cz_find_name(const char *name, const void *items, int n, size_t size, size_t offset,
                  CzSuggestion *nearest);
 
-/* The same of an array of texts, and of structs with a member `name`. */
+/* The same for an array of texts, and for structs with a member `name`. */
 #define CZ_FIND_TEXT(text, texts, n, nearest)                                                      \
     cz_find_name(text, texts, n, sizeof(const char *), 0, nearest)
 #define CZ_FIND_NAMED(text, type, items, n, nearest)                                               \

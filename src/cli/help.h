@@ -18,8 +18,8 @@ extern const CzHelpEntry cz_topics[CZ_N_TOPIC];
 
 void cz_help_write_topic(CzTopic topic);
 
-/* How checks give a verdict: the words in the order in which they are tried, up to one without a
- * name, and a remark. */
+/* Rules for the verdict over checks: the words in the order in which they are tried, up to one
+ * without a name, and a remark. */
 extern const CzHelpEntry cz_verdict_rules[];
 extern const char cz_verdict_remark[];
 

@@ -48,7 +48,7 @@ typedef struct CzTurned {
     CzRow cosine, sine;
 } CzTurned;
 
-/* Where a body is and how it moves. */
+/* Position and velocity of a body. */
 typedef struct CzMotion {
     CzPlane displacement, rate;
     CzTurned turned;

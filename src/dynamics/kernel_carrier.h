@@ -1,4 +1,4 @@
-/* How bodies move and how forces act on them, in the plane. Part of kernel.c only.
+/* Motion of bodies and application of forces, in the plane. Part of kernel.c only.
  *
  * Elements act between carriers. A point of a carrier has an arm from the centre of gravity and a
  * velocity; a force applied at that point has the same arm. So every stroke is the integral of its
@@ -10,7 +10,7 @@
 #include "base/complex.h"
 #include "dynamics/kernel_lanes.h"
 
-/* A body that carries an element: where it is and how it moves. */
+/* A body that carries an element: its position and velocity. */
 typedef struct {
     const CzPlane *displacement, *rate;
     const CzTurned *turned;

@@ -101,7 +101,7 @@ static void push_couplers(CzBlock *d, const CzCarrier car[2], const CouplerLine 
     }
 }
 
-/* All couplers. */
+/* Evaluates all couplers. */
 static void couplers(CzBlock *d, double step) {
     const int released = some_are_released(&d->memory->coupler);
     if (!released && d->couplers_rest && !pivots_are_near(d)) {

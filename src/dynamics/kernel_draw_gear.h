@@ -6,7 +6,7 @@
 #include "dynamics/kernel_contact_line.h"
 #include "laws/draw_gear.h"
 
-/* All draw gears; a lane without any has an infinite slack. */
+/* Evaluates all draw gears; a lane without any has an infinite slack. */
 static void draw_gears(CzBlock *d) {
     const CzDrawGearRows *restrict rows = &d->parameter.draw_gear;
     double *restrict force = d->published.draw_gear.force;

@@ -32,8 +32,8 @@ static void interface_extremes(CzBlock *d, double time) {
     }
 }
 
-/* How near the faces came to climbing. `chain` is the chain's own force: it remains after the faces
- * have passed each other. */
+/* Updates the smallest distances of the faces from climbing. `chain` is the chain's own force: it
+ * remains after the faces have passed each other. */
 static void face_extremes(CzBlock *d, double time) {
     const double *restrict normal = d->published.face.force, *restrict remaining =
                                                                  d->published.face.remaining;
@@ -121,7 +121,7 @@ static void car_extremes(CzBlock *d, double time) {
         keep_larger(kept->end_force[end], d->published.end[end].force);
 }
 
-/* How the series chains were solved. */
+/* Updates the residuals of the series chains. */
 static void chain_extremes(CzBlock *d) {
     const double *restrict searched = d->published.chain.searched;
     CzExtremes *restrict kept = &d->extreme;
@@ -167,7 +167,7 @@ static void add_work(CzBlock *d, size_t n, double step) {
     }
 }
 
-/* Adds what was noted for a budget. */
+/* Adds the records for a budget. */
 static void add_budget(CzBlock *d, double step) {
     const size_t n = sizeof(CzBudgetRows) / sizeof(double);
     const double *restrict noted = (const double *)d->budget;

@@ -173,7 +173,7 @@ static void push_faces(CzBlock *d, const Contact *contact, FaceChain *of) {
     press_faces(d, contact, chain->now.force);
 }
 
-/* All anti-climbers and bare ends. */
+/* Evaluates all anti-climbers and bare ends. */
 static void faces(const CzDynamics *dynamics, int index, double step) {
     CzBlock *d = &dynamics->block[index];
     Contact contact;

@@ -55,7 +55,7 @@ static void bogie_to_body(CzBlock *d, int bogie) {
     }
 }
 
-/* One axle, counted from the rear of the car. */
+/* Evaluates one axle, counted from the rear of the car. */
 static void axle_to_bogie(CzBlock *d, int axle) {
     const int bogie = axle / 2;
     const double sign = axle % 2 == 0 ? -1.0 : 1.0;

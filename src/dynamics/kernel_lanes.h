@@ -10,7 +10,7 @@
 /* A loop over the lanes of a block, whose iterations are independent. */
 #define CZ_LANES(i) _Pragma("omp simd") for (size_t i = 0; i < CZ_LANE_BLOCK; ++i)
 
-/* The same that adds up `sum`. */
+/* The same with a reduction into `sum`. */
 #define CZ_PRAGMA(text) _Pragma(#text)
 #define CZ_LANES_SUM(i, sum)                                                                       \
     CZ_PRAGMA(omp simd reduction(+ : sum))                                                         \

@@ -32,7 +32,7 @@ typedef struct {
     BufferChain buffers;       /* must be first: the solution passes its address back */
     _Alignas(64) CzRow damage; /* share of the coupler's strength lost by the shear-off */
     Release release;
-    int yields;   /* a shear-off moves on in this step */
+    int yields;   /* a shear-off travels in this step */
     int releases; /* an undamaged one releases in this step */
 } CouplerChain;
 

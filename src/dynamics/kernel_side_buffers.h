@@ -46,7 +46,7 @@ static void slide_plates(CzBlock *d, const Contact *restrict contact,
     }
 }
 
-/* All side buffers: on the end masses, in series with the crush zones. */
+/* Evaluates all side buffers, which act on the end masses, in series with the crush zones. */
 static void side_buffers(CzBlock *d, double step) {
     const CzSideBufferRows *rows = &d->parameter.side_buffers;
     Contact contact;

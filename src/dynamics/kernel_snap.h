@@ -56,7 +56,8 @@ static void settle_snap(const CzDynamics *dynamics, const FaceChain *of, FaceSte
             faces.next->side[side].energy[i] += released * face[side] / both_faces;
 }
 
-/* After the faces of a block were evaluated. Faces that lose their overlap do no work. */
+/* Settles all snaps, after the faces of a block were evaluated. Faces that lose their overlap do no
+ * work. */
 static void settle_snaps(const CzDynamics *dynamics, int index, const FaceChain *of) {
     const CzBlock *d = &dynamics->block[index];
     const FaceStep faces = {&d->memory->face, &d->next_memory->face};

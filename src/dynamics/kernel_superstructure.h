@@ -10,7 +10,7 @@
 #include "dynamics/kernel_contact_line.h"
 #include "laws/superstructure.h"
 
-/* All superstructures; a lane without any has no strength. */
+/* Evaluates all superstructures; a lane without any has no strength. */
 static void superstructures(CzBlock *d) {
     const CzSuperstructureRows *restrict rows = &d->parameter.superstructure;
     const double *restrict set = d->memory->superstructure.set;

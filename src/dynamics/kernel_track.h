@@ -114,7 +114,7 @@ static void press_rails(const CzBlock *d, size_t lane, double force[4]) {
         force[axle] = -d->published.wheel[axle].force[lane];
 }
 
-/* One step of the rails under the forces of the last evaluation. */
+/* Advances the rails by one step under the forces of the last evaluation. */
 static void advance_modes(const CzTrackMotion *track, CzBlock *d, int block) {
     for (size_t i = 0; i < CZ_LANE_BLOCK; ++i) {
         CzTrackUnder *under = &track->under[(size_t)block * CZ_LANE_BLOCK + i];
@@ -142,7 +142,7 @@ static void advance_elements(CzElements *elements, CzBlock *d, int block) {
     }
 }
 
-/* One step of n modes under a force; adds their deflection. */
+/* Advances n modes by one step under a force; adds their deflection. */
 static void advance_pair(const CzPairStep *mode, int n, const double *restrict force, CzRow *state,
                          double *restrict now, double *restrict past) {
     for (int k = 0; k < n; ++k) {
@@ -159,7 +159,7 @@ static void advance_pair(const CzPairStep *mode, int n, const double *restrict f
     }
 }
 
-/* One step of a bogie's modes of all parts of a block. */
+/* Advances a bogie's modes of all parts of a block by one step. */
 static void advance_bogie(CzReceptanceBlock *under, int bogie, const double *restrict rear,
                           const double *restrict front) {
     _Alignas(64) CzRow now[CZ_N_PAIR_MOTION] = {{0.0}}, past[CZ_N_PAIR_MOTION] = {{0.0}};

@@ -27,8 +27,8 @@ enum { CZ_N_LEDGER = CZ_ROWS_IN(CzPower) };
 /* Initial value of an extreme that may stay below 0: lower than any value of a run. */
 #define CZ_NOT_YET -1e300
 
-/* Largest values over all steps; smallest ones are kept with their sign turned. Those of an
- * interface are in the lane of the rear car. All start at 0 but for those marked CZ_NOT_YET. */
+/* Largest values over all steps; of smallest values the negative is kept. Those of an interface are
+ * in the lane of the rear car. All start at 0 but for those marked CZ_NOT_YET. */
 typedef struct CzExtremes {
     CzRow interface_force, interface_time; /* total longitudinal force [N], and when [s] */
     CzRow interface_shortening;            /* closure between the bodies [m] */

@@ -25,7 +25,8 @@ typedef struct CzReceptanceSteps {
     CzTrackFlexibility flexibility; /* under a wheel, in addition to the modes */
 } CzReceptanceSteps;
 
-/* Under the cars of a block that have bogies of one axle spacing; all other lanes stay at zero. */
+/* Track under the cars of a block that have bogies of one axle spacing; all other lanes stay at
+ * zero. */
 typedef struct CzReceptancePart {
     const CzReceptanceSteps *steps;
     CzRow *state; /* real and imaginary parts in turn: bounce and pitch of the rear bogie, then of

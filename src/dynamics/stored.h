@@ -11,7 +11,7 @@
  * loading it to its largest shortening. */
 typedef struct CzCrushEnergy {
     double stored, received;
-    double largest, lost; /* shortening [m] that `lost` belongs to: found again when it grows */
+    double largest, lost; /* largest shortening [m], and the loss of loading to it */
 } CzCrushEnergy;
 
 /* Stored energy of the elements of a lane; 0 where an element is missing. */

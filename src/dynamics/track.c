@@ -127,7 +127,7 @@ CzTrackMotion *cz_track_motion_create(const CzTrackModes *modes, double step, si
 
 /* ---- one car ---- */
 
-/* Load of the modes of a group: sum of g(x) P over the wheels, where the shapes were taken. */
+/* Load of the modes of a group: sum of g(x) P over the wheels, at the places of the shapes. */
 static void load_group(const CzTrackMotion *track, const CzTrackUnder *under, int k,
                        double *restrict re, double *restrict im) {
     const CzTrackGroup *group = &track->modes->group[k];

@@ -48,12 +48,12 @@ typedef struct CzElements {
     struct CzElementsBlock *block; /* CZ_LANE_BLOCK lanes each */
 } CzElements;
 
-/* Under the cars of a block; NULL where none has wheels. */
+/* Track under the cars of a block; NULL where none has wheels. */
 typedef struct CzElementsBlock {
     CzElementsRow *u, *before, *v; /* deflections now and a step ago, rates before the kick (n) */
 } CzElementsBlock;
 
-/* Under one car. */
+/* Track under one car. */
 typedef struct CzElementsUnder {
     bool is_laid;
     double from;     /* place of the first node [m] */
@@ -80,7 +80,8 @@ void cz_elements_look(CzElements *elements, size_t lane, const double place[4],
 /* Deflection half a step ago at the places of the last look. */
 double cz_elements_past(const CzElements *elements, size_t lane, int wheel);
 
-/* One step of all cars of a block under the forces recorded at the places of the last look.
+/* Advances the track of all cars of a block by one step under the forces recorded at the places of
+ * the last look.
  */
 void cz_elements_step(CzElements *elements, size_t block);
 

@@ -49,7 +49,7 @@ typedef struct CzTrackSpan {
     int first, end;
 } CzTrackSpan;
 
-/* Under one car. */
+/* Track under one car. */
 typedef struct CzTrackUnder {
     CzTrackRow *state; /* real and imaginary parts in turn (2 n_group); NULL without wheels */
     CzTrackRow
@@ -174,7 +174,7 @@ static inline void cz_track_give(const CzTrackRows *rows, const double *restrict
     }
 }
 
-/* One step of a group of modes. */
+/* Advances a group of modes by one step. */
 static inline void cz_track_flight(const CzTrackRows *rows, const CzTrackWaves *waves, bool aliased,
                                    double *restrict re, double *restrict im) {
     CZ_WAVES(i) {
@@ -256,7 +256,7 @@ static inline void cz_track_read(const CzTrackMotion *track, CzTrackUnder *under
         }
 }
 
-/* One step of one row of waves. */
+/* Advances one row of waves by one step. */
 __attribute__((always_inline)) static inline void
 cz_track_step_row(const CzTrackMotion *track, CzTrackUnder *under, int copy, int v, bool aliased,
                   const double force[4], double *restrict work) {
@@ -273,8 +273,8 @@ cz_track_step_row(const CzTrackMotion *track, CzTrackUnder *under, int copy, int
     cz_track_keep_waves(track, under, copy, v, &waves);
 }
 
-/* One step under the forces of the wheels on the rail, upwards [N], where the shapes were taken.
- * Returns their work [J]. */
+/* Advances by one step under the forces of the wheels on the rail, upwards [N], at the places of
+ * the shapes. Returns their work [J]. */
 static inline double cz_track_step(const CzTrackMotion *track, CzTrackUnder *under,
                                    const double force[4]) {
     CzTrackRow work = {0.0};

@@ -2,7 +2,7 @@
 #ifndef CZ_EVALUATE_RESULTS_H
 #define CZ_EVALUATE_RESULTS_H
 
-/* How a number is written in a unit (result_units.def). */
+/* Conversion of a number to a unit (result_units.def). */
 typedef enum CzUnitRule { CZ_UNIT_OVER, CZ_UNIT_TIMES, CZ_UNIT_NANO } CzUnitRule;
 
 typedef struct CzResultUnit {

@@ -43,7 +43,7 @@ struct CzFit {
     const CzFitValue *beyond; /* the first one outside the range of its key; NULL if none */
 };
 
-/* From a file, or from points, to a trace (read.c). */
+/* Reads a trace from a file or from points (read.c). */
 CZ_MUST_CHECK CzStatus cz_fit_read_trace(CzFit *fit, const char *path, const CzFitOptions *options,
                                          CzError *error);
 CZ_MUST_CHECK CzStatus cz_fit_take_points(CzFit *fit, int n_point, const double *stroke,

@@ -26,7 +26,7 @@ typedef struct CzStatics {
     double wheel_load[4];     /* of the wheelsets on the rail [N] */
 } CzStatics;
 
-/* One call of cz_model_fill. */
+/* Context of one call of cz_model_fill. */
 typedef struct CzFill {
     const CzModel *model;
     const CzVehicle *vehicles; /* the candidate's */

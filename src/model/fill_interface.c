@@ -298,7 +298,7 @@ static CzStatus fill_couplers(const Pair *pair) {
 
 /* ---- anti-climbers and crush zones without end mass ---- */
 
-/* Both sides in series; a side without the part is rigid. */
+/* Stiffness of both sides in series; a side without the part is rigid. */
 static double in_series(double a, double b) {
     const double sum = a + b;
     return sum > 0.0 ? a * b / sum : 0.0;

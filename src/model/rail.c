@@ -78,7 +78,7 @@ CzComplex cz_rail_flexibility(const CzSeats *seats, double turns, double place) 
     return cz_complex_sum(cz_complex_scaled(shear, s2), cz_complex_scaled(bending, s4));
 }
 
-/* Both functions below: the seat forces follow from equal deflections of rail and seat at each
+/* In both functions below the seat forces follow from equal deflections of rail and seat at each
  * seat.
  */
 double cz_ring_flexibility(const CzSeats *seats, int n_seat, double place) {

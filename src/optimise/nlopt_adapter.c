@@ -90,7 +90,7 @@ typedef struct Bridge {
     const CzNloptRun *run;
     nlopt_opt opt;
     int n, m;     /* variables and constraints of the search */
-    bool elastic; /* one more variable: s */
+    bool elastic; /* with the additional variable s */
     bool penalty; /* constraints are part of the objective */
     long limit;   /* evaluations of the search at which this run ends */
     double scale; /* of the objective */
@@ -196,7 +196,7 @@ static double objective(unsigned n_all, const double *u, double *gradient, void 
     return value;
 }
 
-/* All constraints at once. */
+/* Returns all constraints at once. */
 static void constraints(unsigned m, double *result, unsigned n_all, const double *u,
                         double *gradient, void *data) {
     Bridge *bridge = data;

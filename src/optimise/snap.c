@@ -220,8 +220,8 @@ static void snap(CzSurface *surface, Shortlist *list, long limit, double *scratc
     }
 }
 
-/* Slopes around the best design where there are evaluations for them and for one more design, else
- * those of the last base; without any, the nearest designs are tried first. */
+/* Computes slopes around the best design if the evaluations suffice for them and for a further
+ * design, else uses those of the last base; without slopes the nearest designs are tried first. */
 static bool begin(CzSurface *surface, const double *u, long evaluations) {
     if (evaluations > surface->n + 1)
         return cz_surface_begin(surface, "snap", u, secant);

@@ -7,7 +7,7 @@
 #include "text/node.h"
 #include "tree/record.h"
 
-/* Where a record or one of its values was written. */
+/* Place in a file of a record or one of its values. */
 typedef struct CzPlace {
     const void *address; /* of the record or field in the input */
     size_t size;         /* of a record [byte]; 0 for a field */

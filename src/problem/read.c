@@ -105,7 +105,7 @@ CzStatus cz_problem_read_text(const char *text, size_t n_byte, const char *name,
     return finish(*problem, error);
 }
 
-/* ---- what was found ---- */
+/* ---- mistakes and sources ---- */
 
 int cz_problem_n_mistake(const CzProblem *problem) {
     return problem->reader.mistakes.n_mistake;

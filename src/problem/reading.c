@@ -1,4 +1,4 @@
-/* From a tree to records: settings, trains, families, binding. */
+/* Converts a tree to records: settings, trains, families, binding. */
 #include "problem/reading.h"
 
 #include <stdarg.h>

@@ -8,7 +8,7 @@
 #include "tree/settings.h"
 
 /* In the first line of a resolved problem: everything is written out; keys without effect are not
- * reported, because that concerns its original files. */
+ * reported, since they concern its original files. */
 #define CZ_RESOLVED_MARK " resolved: parts, copies and defaults filled in"
 
 struct CzProblem {

@@ -1,4 +1,4 @@
-/* From measured points to a force-stroke curve. */
+/* Converts measured points to a force-stroke curve. */
 #include "problem/trace.h"
 
 #include <math.h>

@@ -58,7 +58,7 @@ static void write_text(FILE *stream, const char *text) {
 
 /* ---- origins ---- */
 
-/* Where a field was written, or that it is a default. */
+/* Writes the place of a field in its file, or that it is a default. */
 static void write_origin(const Writer *writer, const CzKey *key, const void *field, int column) {
     const CzPlace *place = cz_places_find(&writer->problem->places, field);
     fprintf(writer->stream, "%*s # ", column < COMMENT_COLUMN ? COMMENT_COLUMN - column : 0, "");

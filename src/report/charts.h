@@ -14,7 +14,7 @@ typedef enum CzChart {
     CZ_N_CHART
 } CzChart;
 
-/* How many figures of a kind a run has. */
+/* Number of figures of a kind in a run. */
 typedef enum CzChartCount { CZ_CHART_ONE, CZ_CHART_PER_INTERFACE, CZ_CHART_PER_CAR } CzChartCount;
 
 typedef struct CzChartInfo {

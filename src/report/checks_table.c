@@ -61,7 +61,7 @@ const char *cz_checks_value(char text[CZ_CHECK_ROOM], const CzCheckResult *check
     return text;
 }
 
-/* A check that has no subject in this problem passes. */
+/* Whether a check does not apply to this problem, so that it passes. */
 static bool does_not_apply(const CzCheckResult *check) {
     return isnan(check->value) && cz_verdict_passes(check->verdict);
 }

@@ -29,7 +29,7 @@ bool cz_compared_is_beyond(const CzReport *report, int i);
 const char *cz_compared_caution(const CzReport *report);
 
 /* Tables: checks that differ, and the number of equal ones; results of interfaces or cars, with
- * `known` only those that a run has. */
+ * `known` only those that exist in a run. */
 void cz_compared_begin_checks(CzReportTable *table, const CzReport *report, int *n_same);
 void cz_compared_begin_numbers(CzReportTable *table, const CzReport *report, bool of_interface,
                                bool known);

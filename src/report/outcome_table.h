@@ -13,7 +13,7 @@ void cz_outcome_begin_variables(CzReportTable *table, const CzReport *report, bo
 void cz_outcome_put_constraint(CzReportTable *table, const CzEvaluator *evaluator,
                                const CzEvaluation *best, int i, double margin);
 
-/* How a search ended, in capital letters; of a fit, about its tolerances. */
+/* End of a search, in capital letters; for a fit with respect to its tolerances. */
 const char *cz_outcome_words(const CzEvaluator *evaluator, const CzOutcome *outcome);
 
 /* The largest change by each method of a verification. */

@@ -58,7 +58,7 @@ typedef enum CzResultForm {
     CZ_FORM_RECORD
 } CzResultForm;
 
-/* How a number is printed in tables. */
+/* Format of a number in tables. */
 typedef enum CzResultFormat { CZ_FORMAT_PLAIN, CZ_FORMAT_ROUND, CZ_FORMAT_PERCENT } CzResultFormat;
 
 /* C type of a member of a record. */
@@ -123,7 +123,7 @@ extern const CzResult cz_results[CZ_N_RESULT];
 /* A number of a record in its unit; NaN where it is not known or blank. Yes and no are 1 and 0. */
 double cz_result_number(const CzResult *result, CzResultContext *context, const void *record);
 
-/* The same as a table prints it, by its format. */
+/* The same as text for tables, in its format. */
 const char *cz_result_text(char text[CZ_FIGURE_ROOM], const CzResult *result,
                            CzResultContext *context, const void *record);
 

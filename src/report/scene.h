@@ -9,9 +9,9 @@
 #define CZ_SCENE_HEIGHT 118.0
 #define CZ_SCENE_RAIL 104.0 /* height of the rail head in the drawing */
 
-/* Draws rail and cars seen through a window `width` wide whose middle is where the two faces of an
- * interface meet, at a sample. `moves` adds the data with which the page's script moves them, and
- * draws all cars instead of the visible ones. */
+/* Draws rail and cars at a sample, in a window of `width` centred between the two faces of an
+ * interface. `moves` adds the data with which the page's script moves them, and draws all cars
+ * instead of the visible ones. */
 void cz_scene_write(const CzPage *page, int interface, int sample, double width, bool moves,
                     CzMarkup *markup);
 

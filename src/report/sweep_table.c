@@ -82,7 +82,8 @@ static void write_map(const CzSweep *sweep, CzTerminal *terminal) {
     fputs("\n" CZ_MAP_SIGNS "\n", terminal->stream);
 }
 
-/* Why points of a map failed or are invalid, each reason once, with the first point that has it. */
+/* Reasons why points of a map failed or are invalid, each reason once, with the first point that
+ * has it. */
 static void write_reasons(const CzSweep *sweep, CzTerminal *terminal) {
     enum { MOST_REASONS = 8 };
     char down[CZ_FIGURE_ROOM], across[CZ_FIGURE_ROOM];

@@ -8,7 +8,7 @@
 
 #include <stdio.h>
 
-/* How a cell is marked: by colour, on a page by a class. CZ_STYLE_SMALL is for remarks. */
+/* Style of a cell: a colour, on a page a class. CZ_STYLE_SMALL is for remarks. */
 typedef enum CzStyle {
     CZ_STYLE_PLAIN,
     CZ_STYLE_GOOD,

@@ -229,7 +229,7 @@ static void step_reference(CzBatch *batch, const Recording *recording, double un
     progress->over = true;
 }
 
-/* One step of the model. */
+/* Advances by one step of the model. */
 static void step(CzBatch *batch, const Recording *recording) {
     const int first = batch->n_step == 0;
     const double until = (double)++batch->n_step * batch->step;

@@ -66,7 +66,7 @@ static bool fill_absorber(const CzBatch *batch, const Absorber *absorber, size_t
     return true;
 }
 
-/* Both sides share one contact, which crushes survival space. */
+/* Fills a superstructure; both sides share one contact, which crushes survival space. */
 static bool fill_superstructure(const CzBatch *batch, size_t lane, int car,
                                 CzElementResult *result) {
     if (!cz_has_element(batch, lane, 0, CZ_ELEMENT_SUPERSTRUCTURE))
@@ -81,7 +81,7 @@ static bool fill_superstructure(const CzBatch *batch, size_t lane, int car,
     return true;
 }
 
-/* Both sides share one link. */
+/* Fills a draw gear; both sides share one link. */
 static bool fill_draw_gear(const CzBatch *batch, size_t lane, int car, CzElementResult *result) {
     if (!cz_has_element(batch, lane, 0, CZ_ELEMENT_DRAW_GEAR))
         return false;
@@ -245,7 +245,7 @@ double cz_interface_energy(const CzBatch *batch, int interface, int design) {
     return energy;
 }
 
-/* How near an interface came to climbing, and when. */
+/* Fills the margins of an interface against climbing, with their times. */
 static void fill_climbing(const CzBatch *batch, int interface, int design,
                           CzInterfaceResult *result) {
     const size_t lane = cz_lane(batch, interface, design);

@@ -304,8 +304,8 @@ static double holds_since(bool holds, double since, double now) {
     return !holds ? NAN : isnan(since) ? now : since;
 }
 
-/* Whether a wheel is off the rail now. Notes an override when one was ever higher than its flange;
- * without lift stops the lift of the wheels does not indicate an override. */
+/* Whether a wheel is off the rail now. Records an override when one was ever higher than its
+ * flange; without lift stops the lift of the wheels does not indicate an override. */
 static bool wheels_are_off(CzBatch *batch, int design) {
     CzProgressOfDesign *progress = &batch->design[design];
     bool off = false;

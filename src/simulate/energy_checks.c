@@ -67,7 +67,7 @@ static double apparent_return(const CzBatch *batch, const CzElementResult *eleme
     return corners;
 }
 
-/* The same of an element that has bottomed out. */
+/* The same for an element that has bottomed out. */
 static double apparent_return_at_stop(const CzBatch *batch, CzElementResult *element, int interface,
                                       int design, int side) {
     cz_devices_judge(batch, interface, design, side, 1, element);

@@ -1,4 +1,4 @@
-/* Channel frequency class filters, for accelerations that people look at. */
+/* Channel frequency class filters, for accelerations in figures. */
 #ifndef CZ_SIMULATE_FILTER_H
 #define CZ_SIMULATE_FILTER_H
 

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "model/breakpoints.h"
 
-#define LONGEST_STEP 0.5 /* of the model's step, so that peaks are seen (ours) */
+#define LONGEST_STEP 0.5 /* of the model's step, so that peaks are resolved (ours) */
 #define SHORTEST_STEP                                                                              \
     1e-9                   /* smallest step of the laws, for states at the time of the commit [s]  \
                             */

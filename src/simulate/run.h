@@ -140,8 +140,8 @@ CZ_MUST_CHECK CzStatus cz_history_decelerations(const CzBatch *batch, int car, i
 
 /* accounts.c: updates the accounts of a design for this step. */
 void cz_accounts_take(const CzBatch *batch, int design);
-/* Of the accounts taken last: energy that an element has received, and the part that it stores [J].
- * The lane is the interface's, or the car's for what belongs to one car. */
+/* From the last accounts: energy that an element has received, and its stored part [J]. The lane is
+ * that of the interface, or of the car for elements of one car. */
 typedef struct CzAccount {
     double received, stored;
 } CzAccount;
@@ -203,7 +203,7 @@ bool cz_interface_can_open(const CzBatch *batch, int interface, int design);
 CzInterfaceLoad *cz_interface_loads_begin(const CzBatch *batch, CzArena *arena);
 CzLoadLeft cz_interface_loads_look(const CzBatch *batch, int design);
 
-/* ending.c: looks at all designs; true when every one is over. */
+/* ending.c: examines all designs; true when the run of every one is over. */
 bool cz_ending_look(CzBatch *batch);
 
 /* summary.c */
@@ -228,7 +228,7 @@ double cz_interface_energy(const CzBatch *batch, int interface, int design);
 CZ_MUST_CHECK CzStatus cz_vehicle_fill(const CzBatch *batch, int car, int design,
                                        CzVehicleResult *result);
 
-/* rest.c: of the cars of a single design; NaN throughout for one that is not full (n_car). */
+/* rest.c: of the cars of a single design; all NaN for a car without running gear (n_car). */
 CZ_MUST_CHECK CzStatus cz_rest_of_cars(const CzModel *model, const CzLanes *lanes, CzRest *rest,
                                        CzError *error);
 

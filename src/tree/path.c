@@ -31,7 +31,7 @@ typedef struct {
     CzMatches *matches;
     int n_found;
     bool failed;
-    const char *train;     /* name of the train on the way, for its vehicles */
+    const char *train;     /* name of the train in the path, for its vehicles */
     char at[CZ_PATH_ROOM]; /* concrete path so far */
 } Walk;
 
@@ -126,7 +126,8 @@ static bool is_record(const CzRecord *record, const char *name) {
 
 static const CzNode *walk_on(Walk *walk, const CzNode *node, Step step);
 
-/* Appends a name, or without one an index, to the concrete path; the length before, to cut it. */
+/* Appends a name, or without one an index, to the concrete path; returns the previous length for
+ * cutting it again. */
 static size_t enter(Walk *walk, const char *name, int index) {
     const size_t before = strlen(walk->at), room = sizeof walk->at - before;
     if (name == NULL)

@@ -4,12 +4,12 @@
  *   settings  `set:` and --set applied to the tree
  *   trains    `copy`, `repeat`, `reversed` written out
  *   families  `sweep` of a scenario written out
- *   bind      tree -> typed records, with a place for every value; `use` is taken on the way
- *   rules     what must hold between values
+ *   bind      tree -> typed records, with a place for every value; `use` is replaced by parts
+ *   rules     conditions between values
  *
- * The first four are in this folder, the others in src/problem. All of them go on after a mistake,
- * so that one pass reports every mistake. Without memory they return NULL or end early; the arena
- * records that a request failed.
+ * The first four are in this folder, the others in src/problem. All of them continue after a
+ * mistake, so that one pass reports every mistake. Without memory they return NULL or end early;
+ * the arena records that a request failed.
  */
 #ifndef CZ_TREE_READER_H
 #define CZ_TREE_READER_H

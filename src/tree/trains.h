@@ -20,7 +20,7 @@ const CzNode *cz_trains_write_out(CzReader *reader, const CzTree *tree);
  * them; NULL without memory. */
 const CzNode *cz_trains_name_vehicles(CzArena *arena, const CzNode *root);
 
-/* How many vehicles an item of a list of vehicles represents. */
+/* Number of vehicles that an item of a list of vehicles represents. */
 int cz_vehicle_repeat(const CzNode *vehicle);
 
 /* Writes the name of the k-th vehicle of an item: `given` (may be NULL) counted on, or the train's

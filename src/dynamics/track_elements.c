@@ -196,7 +196,7 @@ static void pin(CzElements *elements) {
     *entry(elements, elements->stiffness, last, last) += 1e3 * elements->seats.shear;
 }
 
-/* The first column of each row that is not zero; factors have no others either. */
+/* The first column of each row that is not zero; the factors have the same. */
 static void find_first(CzElements *elements) {
     for (size_t i = 0; i < elements->n; ++i) {
         size_t j = i > elements->band ? i - elements->band : 0;

@@ -71,8 +71,8 @@ static CzStatus append_in_scenarios(Builder *builder, CzCheck check, const CzLim
     return CZ_OK;
 }
 
-/* Whether a limit is unconfirmed: confirmed are limits read in the primary text and those of the
- * user. */
+/* Whether a limit is unconfirmed: limits read in the primary text, and those of the user, are
+ * confirmed. */
 static bool is_unconfirmed(const char *confidence) {
     return confidence == NULL || (strcmp(confidence, "S1") != 0 && strcmp(confidence, "user") != 0);
 }

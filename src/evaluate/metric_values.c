@@ -178,7 +178,7 @@ static double climbed(const CzPlace *place) {
     return place->must_declare ? 0 : NAN;
 }
 
-/* ---- when a value was reached ---- */
+/* ---- times of values ---- */
 
 /* Time of the first event of a kind at a place; NaN when there was none. */
 static double event_time(const CzPlace *place, CzEventKind what, const char *where) {

@@ -346,7 +346,7 @@ static bool has_same_checks(const CzEvaluator *evaluator, double limit, const Cz
     return is_same;
 }
 
-/* Finds the early ended runs of the production design, where requested and with the same checks. */
+/* Finds the runs of the design that end early, where requested and with the same checks. */
 static CzStatus find_settled(CzVerification *verification, const CzEvaluator *evaluator,
                              const double *x, const CzEvaluation *record, Number *number,
                              CzEvaluation *settled, CzError *error) {
@@ -360,7 +360,7 @@ static CzStatus find_settled(CzVerification *verification, const CzEvaluator *ev
     return CZ_OK;
 }
 
-/* Runs all methods, and before them the early ended runs with which they are compared. */
+/* Runs all methods, and before them the runs that end early, with which they are compared. */
 static CzStatus run_all(CzVerification *verification, const CzEvaluator *evaluator, const double *x,
                         const CzEvaluation *record, bool until_settled, CzError *error) {
     const int most = most_numbers(evaluator, record);

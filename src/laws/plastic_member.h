@@ -6,7 +6,7 @@
  *
  * The strength is taken at the committed stroke s, so a falling strength (trigger peak, shear-off)
  * releases the chain's elastic energy over a few steps; the rate factor acts on plastic stroke
- * alone. The smallest resistance (ours) makes the split between equal members unique and costs a
+ * alone. The smallest resistance (ours) makes the split between equal members unique and adds a
  * force of resistance * crush per step, some ten newtons.
  */
 #ifndef CZ_LAWS_PLASTIC_MEMBER_H

@@ -4,8 +4,8 @@
 
 #include "model/track.h"
 
-/* For a wheelset of an inverse mass [1/kg] between a contact of a flexibility [m/N] and a spring
- * [N/m] [s]. */
+/* The bound [s] for a wheelset of a given inverse mass [1/kg] between contact flexibility [m/N] and
+ * spring [N/m]. */
 double cz_track_longest_step(const CzTrackModes *modes, double contact, double inverse_mass,
                              double spring);
 

@@ -24,8 +24,8 @@ typedef struct CzFunction {
     int n_detail;    /* constraints place by place, so without the breakpoints of the worst place; 0
                         when there are none */
     bool is_minimax; /* the objective is the largest constraint, up to a constant */
-    bool is_fit; /* the objective is a sum of squares, the details are its residuals, and flags are
-                    whether each is small enough */
+    bool is_fit; /* the objective is a sum of squares, the details are its residuals, and each flag
+                    is whether one of them is small enough */
 
     /* Evaluates n_point designs: x is (n_point x n_variable), objective (n_point) with NaN for a
      * failed design, constraint (n_point x n_constraint), satisfied when at most 0, detail (n_point
@@ -48,7 +48,7 @@ typedef struct CzRecord {
                          squares: infeasible designs are ranked by it */
     const char *phase;
     bool on_grid;   /* every variable is on its catalogue increment */
-    bool is_barred; /* a rule of problem files is broken */
+    bool is_barred; /* a rule of problem files is violated */
     double missed;  /* largest positive constraint that is not a yes or no; 0 when there is none */
 } CzRecord;
 

@@ -2,7 +2,8 @@
  * with keys for its columns, part and signs. From a file the loading is read, with strokes that
  * rise from 0.
  *
- * A curve of more points than a table holds loses the points that matter least (reduce_curve.h).
+ * A curve with more points than a table can store is reduced by its least significant points
+ * (reduce_curve.h).
  */
 #ifndef CZ_PROBLEM_BIND_CURVE_H
 #define CZ_PROBLEM_BIND_CURVE_H

@@ -98,9 +98,9 @@ typedef struct CzTargets {
     CzTarget *target; /* (n) */
 } CzTargets;
 
-/* Targets of the index-th variable of `optimise:`, found when the problem was read. Of a variable
- * with choices each is a whole buffer: `offset` is that of the buffer, `place` of its `use`, and
- * value and unit are 1. None in a problem that was read again. Borrowed. */
+/* Targets of the index-th variable of `optimise:`, found when the problem was read. For a variable
+ * with choices each target is a whole buffer: `offset` is that of the buffer, `place` of its `use`,
+ * and value and unit are 1. None in a problem that was read again. Borrowed. */
 const CzTargets *cz_problem_targets(const CzProblem *problem, int variable);
 
 /* Adds all numbers that setting a path would change, ordered by match. Through `parts.NAME` those

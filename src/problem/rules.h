@@ -36,7 +36,7 @@ void cz_rule_absent(const CzRules *rules, const void *field, const char *format,
 /* Whether a field was written in a file, rightly or not. */
 bool cz_rule_is_written(const CzRules *rules, const void *field);
 
-/* Number as an argument of a sentence in a unit, such as "300 mm". */
+/* Text of a number with its unit for a sentence, such as "300 mm". */
 const char *cz_rule_text(char text[48], double si, const char *unit, double unit_si);
 #define CZ_IN_UNIT(si, unit, unit_si) cz_rule_text((char[48]){0}, (si), (unit), (unit_si))
 #define CZ_MM(si) CZ_IN_UNIT(si, "mm", 1e-3)

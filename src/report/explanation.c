@@ -64,7 +64,7 @@ static void write_indicators(const CzExplanation *explanation, CzTerminal *termi
     cz_table_write_text(&table, terminal);
 }
 
-/* Impulses that turned the body of the car with the smallest margin. */
+/* Impulses that pitched the body of the car with the smallest margin. */
 static void write_budget(const CzExplanation *explanation, CzTerminal *terminal) {
     const CzRunSummary *run = cz_run_summary(explanation->run);
     if (run->budget == NULL)

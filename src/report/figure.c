@@ -66,7 +66,8 @@ static int magnitude(double size) {
     return power;
 }
 
-/* Writes n with its first digit at a power of ten, without zeros at the end of the fraction. */
+/* Writes the digits of n, the first of which has a given power of ten, without zeros at the end of
+ * the fraction. */
 static void place_digits(char *text, uint64_t n, int n_digit, int power) {
     for (; n % 10 == 0 && n_digit > 1; n_digit--)
         n /= 10;

@@ -8,7 +8,7 @@
 /* Bounds and values of the variables; on a page with a drawing of the values between the bounds. */
 void cz_outcome_begin_variables(CzReportTable *table, const CzReport *report, bool on_page);
 
-/* A row of a table of constraints, whose heads follow that of their names. */
+/* A row of a table of constraints; these heads come after that of the name. */
 #define CZ_CONSTRAINT_HEADS "where;scenario;>limit;>value;>margin"
 void cz_outcome_put_constraint(CzReportTable *table, const CzEvaluator *evaluator,
                                const CzEvaluation *best, int i, double margin);

@@ -156,7 +156,7 @@ static Frame frame_of(const CzPlot *plot) {
     return frame;
 }
 
-/* A line, whose tag the caller ends; the same between the ends of the axes. */
+/* Opens the tag of a line; the caller ends it. */
 static void open_line(CzMarkup *markup, double x1, double y1, double x2, double y2) {
     cz_markup_write(markup, "<line x1='%.1f' y1='%.1f' x2='%.1f' y2='%.1f'", x1, y1, x2, y2);
 }

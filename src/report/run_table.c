@@ -166,7 +166,7 @@ static const char *family_of(const CzProblem *problem, const char *scenario) {
     return NULL;
 }
 
-/* The run of a scenario of a family; NULL when it is of no or another family, or was not kept. */
+/* The run of a scenario of a family; NULL when it is not of that family, or was not kept. */
 static const CzRunSummary *member_of(const CzProblem *problem, const CzEvaluation *evaluation,
                                      int index, const char *family) {
     const CzRunSummary *run = cz_kept_run(evaluation, index);

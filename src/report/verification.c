@@ -105,8 +105,8 @@ static bool changes_too_much(const CzVerification *verification, const CzVerifie
     return false;
 }
 
-/* Number of results that change too much, and of those with a scatter above the limit, which no
- * method computes more accurately. */
+/* Number of results that change too much, and of those with a scatter above the limit, for which no
+ * method is more accurate. */
 static void write_scatter(const CzVerification *verification, FILE *stream) {
     int n = 0, n_scatter = 0;
     for (int i = 0; i < verification->n_value; i++) {

@@ -38,7 +38,7 @@ struct CzReference {
     CzSolver *solver;
     size_t n_place;
     Place *place;       /* (n_place); the state is each one's position and velocity in turn */
-    size_t n_lane;      /* whose states of the track follow those of the places */
+    size_t n_lane;      /* lanes whose track states follow the states of the places */
     double *track_rate; /* of these states at the last evaluation */
     Drop *drop;         /* (ode.n_drop) */
     double committed;   /* time of the last commit [s] */

@@ -1,4 +1,4 @@
-/* A curve file while it is read: its titles and units, shared by the sources that read it.
+/* A curve file while it is read: its titles and units, shared by the files of the reader.
  */
 #ifndef CZ_TEXT_CURVE_COLUMNS_H
 #define CZ_TEXT_CURVE_COLUMNS_H

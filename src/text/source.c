@@ -17,8 +17,8 @@ void cz_sources_hash(CzSources *sources, const char *bytes, size_t n_byte) {
     sources->hash = (hash ^ 0xff) * prime; /* no text contains a byte 0xff */
 }
 
-/* Length in bytes of a line end at the start of a text; 0 when there is none. Line ends of YAML, so
- * that lines are counted as its parser does, are CR LF, CR, LF, NEL, LS, PS. */
+/* Length in bytes of a line end at the start of a text; 0 when there is none. With `is_yaml` these
+ * are CR LF, CR, LF, NEL, LS and PS, so that lines are counted as by its parser. */
 static size_t line_end_length(const char *text, bool is_yaml) {
     if (text[0] == '\r' || text[0] == '\n')
         return text[0] == '\r' && text[1] == '\n' ? 2 : 1;

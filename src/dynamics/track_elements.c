@@ -344,7 +344,7 @@ static void shift(CzElementsRow *part, size_t n, size_t moved, bool forwards, si
     }
 }
 
-/* Moves the piece of a lane by whole bays until the wheels are about its middle. */
+/* Moves the piece of a lane by whole bays until the wheels are near its middle. */
 static void follow(const CzElements *elements, size_t lane, const double place[4]) {
     const CzElementsBlock *block = block_of(elements, lane);
     CzElementsUnder *under = &elements->under[lane];

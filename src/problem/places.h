@@ -40,7 +40,7 @@ void cz_places_sort(CzPlaces *places);
 
 void cz_places_free(CzPlaces *places);
 
-/* Place of a field, or of the innermost record about it; NULL when it is not in the input. */
+/* Place of a field, or of the innermost record around it; NULL when it is not in the input. */
 const CzPlace *cz_places_find(const CzPlaces *places, const void *field);
 
 #endif

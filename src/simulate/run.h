@@ -47,8 +47,8 @@ typedef struct CzProgressOfDesign {
     double plastic;       /* sum of the plastic strokes at the last examination [m] */
     double dissipated;    /* dissipated energy when it last changed [J] */
     double dissipated_at; /* when that was [s] */
-    double wheel_rail;    /* work at wheels and brakes until the trains first had one speed [J]; NaN
-                             before */
+    double wheel_rail; /* work at wheels and brakes until the trains first had the same speed [J];
+                          NaN before */
     double override_time; /* NaN until it happens */
 } CzProgressOfDesign;
 

@@ -43,8 +43,8 @@ CZ_MUST_CHECK CzStatus cz_obstacles_find(const CzProblem *problem, int n_scene, 
 /* Whether checks of this name apply to the scenario. */
 bool cz_scene_is_judged_by(const CzScene *scene, const char *check);
 
-/* Mass factor from which a scenario is an overload case, and share of the speed of the others that
- * it must reach to cover them. */
+/* Mass factor from which a scenario is an overload case, and factor on the largest speed of the
+ * others that one overload case must reach. */
 #define CZ_OVERLOAD_FACTOR 1.1
 
 /* Fills n_scenario scenes from a problem; memory comes from the arena. Statuses: CZ_OK,

@@ -187,7 +187,7 @@ struct CzSolver {
     Message message;
 };
 
-/* Adams' iteration treats a refusal as slow convergence, so the refusal is remembered. */
+/* Adams' iteration treats a refusal as slow convergence, so the refusal is stored. */
 static int rates_of(sunrealtype time, N_Vector state, N_Vector rate, void *data) {
     CzSolver *solver = data;
     const double *y = N_VGetArrayPointer(state);

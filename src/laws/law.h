@@ -29,7 +29,7 @@ static inline double cz_positive_part(double value) {
     return value > 0.0 ? value : 0.0;
 }
 
-/* 0 at 0, 1 from `length` on, in between linear in |value|. */
+/* 0 at 0, 1 from `length` on, linear in |value| in between. */
 static inline double cz_fade_in(double value, double length) {
     return cz_clamp(fabs(value) * (1.0 / length), 0.0, 1.0); /* all lengths are constants */
 }

@@ -1,4 +1,4 @@
-/* Searches a design that passes, and fills the outcome. */
+/* Searches for a design that passes, and fills the outcome. */
 #include "crushzone/optimise.h"
 #include "base/clock.h"
 #include "base/error.h"

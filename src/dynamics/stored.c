@@ -58,27 +58,7 @@ static double buffer_stored(const BufferAt *buffer, size_t lane) {
     return below + 0.5 * over * over / transition + stop;
 }
 
-static double coupler_stored(const CzDynamics *dynamics, size_t lane, int side) {
-    const CzBlock *d = cz_block_of(dynamics, lane);
-    const BufferAt buffer = {&d->parameter.coupler.side[side].buffer,
-                             &d->memory->coupler.side[side].buffer,
-                             &dynamics->lanes->curve[CZ_CURVE(buffer[side])]};
-    const bool exists = d->parameter.coupler.exists[lane % CZ_LANE_BLOCK] > 0.5;
-    return exists ? buffer_stored(&buffer, lane) : 0.0;
-}
-
-static double side_stored(const CzDynamics *dynamics, size_t lane, int side) {
-    const CzBlock *d = cz_block_of(dynamics, lane);
-    const BufferAt buffer = {&d->parameter.side_buffers.side[side].buffer,
-                             &d->memory->side_buffers.side[side].buffer,
-                             &dynamics->lanes->curve[CZ_CURVE(side_buffer[side])]};
-    const bool exists = d->parameter.side_buffers.exists[lane % CZ_LANE_BLOCK] > 0.5;
-    return exists ? buffer_stored(&buffer, lane) : 0.0;
-}
-
-static double hinge_stored(const CzDynamics *dynamics, size_t lane, int side) {
-    const CzBlock *d = cz_block_of(dynamics, lane);
-    const size_t i = lane % CZ_LANE_BLOCK;
+static double hinge_stored(const CzBlock *d, size_t i, int side) {
     const CzHingeRows *rows = &d->parameter.coupler.side[side].hinge_vertical;
     const double engaged = d->published.coupler.engaged[i];
     if (d->parameter.coupler.exists[i] < 0.5 || !(engaged > 0.0))
@@ -89,18 +69,6 @@ static double hinge_stored(const CzDynamics *dynamics, size_t lane, int side) {
     return engaged *
            (cz_slider_energy(d->constant.hinge_compliance[side][i], moment, swing, offset) +
             cz_stop_energy(rows->stop_stiffness[i], rows->stop[i], swing));
-}
-
-static double coupler_tubes_stored(const CzDynamics *dynamics, size_t lane) {
-    const CzBlock *d = cz_block_of(dynamics, lane);
-    const size_t i = lane % CZ_LANE_BLOCK;
-    return by_stretch(d->parameter.coupler.compliance[i], d->memory->coupler.force[i]);
-}
-
-static double side_tubes_stored(const CzDynamics *dynamics, size_t lane) {
-    const CzBlock *d = cz_block_of(dynamics, lane);
-    const size_t i = lane % CZ_LANE_BLOCK;
-    return by_stretch(d->parameter.side_buffers.compliance[i], d->memory->side_buffers.force[i]);
 }
 
 /* Rise of a buffer's force in the step of first touch, times the stroke of that step. */
@@ -121,85 +89,8 @@ double cz_side_touch(const CzDynamics *dynamics, size_t lane, int side, double s
                  stroke);
 }
 
-static double superstructure_stored(const CzDynamics *dynamics, size_t lane) {
-    const CzBlock *d = cz_block_of(dynamics, lane);
-    const size_t i = lane % CZ_LANE_BLOCK;
-    return by_force(d->published.superstructure.force[i], d->parameter.superstructure.stiffness[i]);
-}
-
-static double draw_gear_stored(const CzDynamics *dynamics, size_t lane) {
-    const CzBlock *d = cz_block_of(dynamics, lane);
-    const size_t i = lane % CZ_LANE_BLOCK;
-    return by_force(d->published.draw_gear.force[i], d->parameter.draw_gear.stiffness[i]);
-}
-
-static double face_stored(const CzDynamics *dynamics, size_t lane) {
-    const CzBlock *d = cz_block_of(dynamics, lane);
-    const size_t i = lane % CZ_LANE_BLOCK;
-    const double held = 1.0 - d->memory->face.lost[i];
-    return by_stretch(held * d->parameter.face.compliance[i], d->memory->face.force[i]);
-}
-
-static double face_sliding_stored(const CzDynamics *dynamics, size_t lane) {
-    const CzBlock *d = cz_block_of(dynamics, lane);
-    const size_t i = lane % CZ_LANE_BLOCK;
-    return by_force(d->published.face.demand_vertical[i], d->parameter.face.stiffness_vertical[i]);
-}
-
-static double side_sliding_stored(const CzDynamics *dynamics, size_t lane) {
-    const CzBlock *d = cz_block_of(dynamics, lane);
-    return by_force(d->published.side_buffers.sliding_vertical[lane % CZ_LANE_BLOCK],
-                    CZ_PLATE_STIFFNESS);
-}
-
-static double secondary_stored(const CzDynamics *dynamics, size_t lane) {
-    const CzBlock *d = cz_block_of(dynamics, lane);
-    const size_t i = lane % CZ_LANE_BLOCK;
-    double stored = 0.0;
-    for (int bogie = 0; bogie < 2; ++bogie) {
-        const CzSuspensionLaw law =
-            cz_suspension_at(&d->parameter.secondary, d->parameter.secondary_preload[bogie], i);
-        stored += cz_suspension_stored(&law, d->published.secondary[bogie].compression[i]);
-    }
-    return stored;
-}
-
-static double primary_stored(const CzDynamics *dynamics, size_t lane) {
-    const CzBlock *d = cz_block_of(dynamics, lane);
-    const size_t i = lane % CZ_LANE_BLOCK;
-    double stored = 0.0;
-    for (int axle = 0; axle < 4; ++axle) {
-        const CzSuspensionLaw law =
-            cz_suspension_at(&d->parameter.primary, d->parameter.primary_preload[axle], i);
-        stored += cz_suspension_stored(&law, d->published.primary[axle].compression[i]);
-    }
-    return stored;
-}
-
-static double link_stored(const CzDynamics *dynamics, size_t lane) {
-    const CzBlock *d = cz_block_of(dynamics, lane);
-    const size_t i = lane % CZ_LANE_BLOCK;
-    double stored = 0.0;
-    for (int bogie = 0; bogie < 2; ++bogie)
-        stored +=
-            by_stretch(d->parameter.link.strut.stiffness[i], d->published.link[bogie].travel[i]);
-    return stored;
-}
-
-static double axle_guidance_stored(const CzDynamics *dynamics, size_t lane) {
-    const CzBlock *d = cz_block_of(dynamics, lane);
-    const size_t i = lane % CZ_LANE_BLOCK;
-    double stored = 0.0;
-    for (int axle = 0; axle < 4; ++axle)
-        stored += by_stretch(d->parameter.axle_guidance.stiffness[i],
-                             d->published.axle_guidance[axle].travel[i]);
-    return stored;
-}
-
 /* Integral of K d^1.5 - N_0 over the approach d, starting at rest. */
-static double wheels_stored(const CzDynamics *dynamics, size_t lane) {
-    const CzBlock *d = cz_block_of(dynamics, lane);
-    const size_t i = lane % CZ_LANE_BLOCK;
+static double wheels_stored(const CzBlock *d, size_t i) {
     const double hertz = d->parameter.wheel.hertz[i];
     double stored = 0.0;
     for (int axle = 0; axle < 4 && hertz > 0.0; ++axle) {
@@ -210,21 +101,6 @@ static double wheels_stored(const CzDynamics *dynamics, size_t lane) {
                   d->constant.static_load[axle][i] * (approach - rest);
     }
     return stored;
-}
-
-static double guide_stored(const CzDynamics *dynamics, size_t lane, int end) {
-    const CzBlock *d = cz_block_of(dynamics, lane);
-    const size_t i = lane % CZ_LANE_BLOCK;
-    return by_stretch(d->parameter.end[end].guide_vertical.stiffness[i],
-                      d->published.end[end].slip_vertical[i]);
-}
-
-static double fold_stored(const CzDynamics *dynamics, size_t lane, int end) {
-    const CzBlock *d = cz_block_of(dynamics, lane);
-    const size_t i = lane % CZ_LANE_BLOCK;
-    const double folded = d->position.end[end].pitch[i] - d->position.body.pitch[i];
-    return by_stretch(d->parameter.end[end].fold_pitch.stiffness[i],
-                      folded - d->memory->end[end].fold_pitch[i]);
 }
 
 /* Area under the smaller of two straight lines that go from a to b over a length. */
@@ -335,46 +211,84 @@ double cz_massless_received_at(const CzDynamics *dynamics, size_t lane, int side
     return crush_lost(curve, lane, &law, largest) + crush_stored(curve, lane, &law, x, largest);
 }
 
-static double slide_stored(const CzDynamics *dynamics, size_t lane) {
-    const CzBlock *d = cz_block_of(dynamics, lane);
-    const CzDragRows *rows = &d->parameter.drag;
+static void fill_buffers(const CzDynamics *dynamics, const CzBlock *d, size_t lane, int side,
+                         CzStored *stored) {
+    const CzCurveLanes *curve = dynamics->lanes->curve;
+    const CzParameters *of = &d->parameter;
+    const BufferAt coupler = {&of->coupler.side[side].buffer, &d->memory->coupler.side[side].buffer,
+                              &curve[CZ_CURVE(buffer[side])]};
+    const BufferAt beside = {&of->side_buffers.side[side].buffer,
+                             &d->memory->side_buffers.side[side].buffer,
+                             &curve[CZ_CURVE(side_buffer[side])]};
     const size_t i = lane % CZ_LANE_BLOCK;
-    return cz_stop_energy(rows->slide_stiffness[i], rows->slide_length[i], d->position.body.x[i]);
+    stored->coupler[side] = of->coupler.exists[i] > 0.5 ? buffer_stored(&coupler, lane) : 0.0;
+    stored->side_buffers[side] =
+        of->side_buffers.exists[i] > 0.5 ? buffer_stored(&beside, lane) : 0.0;
 }
 
-static void fill_interface(const CzDynamics *dynamics, size_t lane, CzStored *stored) {
+static void fill_interface(const CzDynamics *dynamics, const CzBlock *d, size_t lane,
+                           CzStored *stored) {
+    const size_t i = lane % CZ_LANE_BLOCK;
+    const CzParameters *of = &d->parameter;
+    const CzPublished *now = &d->published;
+    const CzMemory *memory = d->memory;
     for (int side = 0; side < 2; ++side) {
-        stored->coupler[side] = coupler_stored(dynamics, lane, side);
-        stored->hinge[side] = hinge_stored(dynamics, lane, side);
-        stored->side_buffers[side] = side_stored(dynamics, lane, side);
+        fill_buffers(dynamics, d, lane, side, stored);
+        stored->hinge[side] = hinge_stored(d, i, side);
         fill_massless(dynamics, lane, side, &stored->massless[side]);
     }
-    stored->coupler_tubes = coupler_tubes_stored(dynamics, lane);
-    stored->side_tubes = side_tubes_stored(dynamics, lane);
-    stored->side_sliding = side_sliding_stored(dynamics, lane);
-    stored->face = face_stored(dynamics, lane);
-    stored->face_sliding = face_sliding_stored(dynamics, lane);
-    stored->superstructure = superstructure_stored(dynamics, lane);
-    stored->draw_gear = draw_gear_stored(dynamics, lane);
+    stored->coupler_tubes = by_stretch(of->coupler.compliance[i], memory->coupler.force[i]);
+    stored->side_tubes = by_stretch(of->side_buffers.compliance[i], memory->side_buffers.force[i]);
+    stored->side_sliding = by_force(now->side_buffers.sliding_vertical[i], CZ_PLATE_STIFFNESS);
+    stored->face =
+        by_stretch((1.0 - memory->face.lost[i]) * of->face.compliance[i], memory->face.force[i]);
+    stored->face_sliding = by_force(now->face.demand_vertical[i], of->face.stiffness_vertical[i]);
+    stored->superstructure =
+        by_force(now->superstructure.force[i], of->superstructure.stiffness[i]);
+    stored->draw_gear = by_force(now->draw_gear.force[i], of->draw_gear.stiffness[i]);
 }
 
-static void fill_car(const CzDynamics *dynamics, size_t lane, CzStored *stored) {
-    for (int end = 0; end < 2; ++end) {
-        fill_end(dynamics, lane, end, &stored->end[end]);
-        stored->guide[end] = guide_stored(dynamics, lane, end);
-        stored->fold[end] = fold_stored(dynamics, lane, end);
+/* Springs of the running gear, all of a car. */
+static void fill_gear(const CzBlock *d, size_t i, CzStored *stored) {
+    const CzParameters *of = &d->parameter;
+    stored->secondary = stored->primary = stored->link = stored->axle_guidance = 0.0;
+    for (int bogie = 0; bogie < 2; ++bogie) {
+        const CzSuspensionLaw law =
+            cz_suspension_at(&of->secondary, of->secondary_preload[bogie], i);
+        stored->secondary +=
+            cz_suspension_stored(&law, d->published.secondary[bogie].compression[i]);
+        stored->link += by_stretch(of->link.strut.stiffness[i], d->published.link[bogie].travel[i]);
     }
-    stored->secondary = secondary_stored(dynamics, lane);
-    stored->primary = primary_stored(dynamics, lane);
-    stored->link = link_stored(dynamics, lane);
-    stored->axle_guidance = axle_guidance_stored(dynamics, lane);
-    stored->wheels = wheels_stored(dynamics, lane);
-    stored->slide = slide_stored(dynamics, lane);
+    for (int axle = 0; axle < 4; ++axle) {
+        const CzSuspensionLaw law = cz_suspension_at(&of->primary, of->primary_preload[axle], i);
+        stored->primary += cz_suspension_stored(&law, d->published.primary[axle].compression[i]);
+        stored->axle_guidance +=
+            by_stretch(of->axle_guidance.stiffness[i], d->published.axle_guidance[axle].travel[i]);
+    }
+    stored->wheels = wheels_stored(d, i);
+}
+
+static void fill_car(const CzDynamics *dynamics, const CzBlock *d, size_t lane, CzStored *stored) {
+    const size_t i = lane % CZ_LANE_BLOCK;
+    const CzDragRows *drag = &d->parameter.drag;
+    for (int end = 0; end < 2; ++end) {
+        const CzEndRows *of = &d->parameter.end[end];
+        const double folded = d->position.end[end].pitch[i] - d->position.body.pitch[i];
+        fill_end(dynamics, lane, end, &stored->end[end]);
+        stored->guide[end] =
+            by_stretch(of->guide_vertical.stiffness[i], d->published.end[end].slip_vertical[i]);
+        stored->fold[end] =
+            by_stretch(of->fold_pitch.stiffness[i], folded - d->memory->end[end].fold_pitch[i]);
+    }
+    fill_gear(d, i, stored);
+    stored->slide =
+        cz_stop_energy(drag->slide_stiffness[i], drag->slide_length[i], d->position.body.x[i]);
 }
 
 void cz_stored_fill(const CzDynamics *dynamics, size_t lane, CzStored *stored) {
-    fill_interface(dynamics, lane, stored);
-    fill_car(dynamics, lane, stored);
+    const CzBlock *d = cz_block_of(dynamics, lane);
+    fill_interface(dynamics, d, lane, stored);
+    fill_car(dynamics, d, lane, stored);
 }
 
 void cz_track_stored(const CzDynamics *dynamics, int block, CzRow stored) {

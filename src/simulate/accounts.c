@@ -14,14 +14,16 @@
 #include <math.h>
 
 void cz_accounts_take(const CzBatch *batch, int design) {
-    long *taken = &batch->design[design].accounts_taken;
-    if (*taken == batch->n_step + 1)
+    CzProgressOfDesign *progress = &batch->design[design];
+    if (progress->accounts_taken == batch->n_step + 1)
         return;
-    *taken = batch->n_step + 1;
+    progress->accounts_taken = batch->n_step + 1;
     for (int car = 0; car < batch->model->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
         cz_stored_fill(batch->dynamics, lane, &batch->stored[lane]);
     }
+    progress->kinetic = cz_kinetic_energy(batch, design);
+    progress->work = cz_total_work(batch, design);
 }
 
 double cz_track_account(const CzBatch *batch, size_t lane) {

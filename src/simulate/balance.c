@@ -60,8 +60,8 @@ double cz_total_work(const CzBatch *batch, int design) {
 }
 
 double cz_balance_residual(const CzBatch *batch, int design) {
-    return cz_kinetic_energy(batch, design) + cz_total_work(batch, design) -
-           batch->design[design].initial_energy;
+    const CzProgressOfDesign *progress = &batch->design[design];
+    return progress->kinetic + progress->work - progress->initial_energy;
 }
 
 double cz_momentum_error(const CzBatch *batch, int design) {

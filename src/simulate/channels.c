@@ -93,16 +93,14 @@ static void put_interface(Writer *writer, int interface) {
 /* Energy so far by its place, and the residual of its balance. */
 static void put_energy(Writer *writer) {
     const CzBatch *batch = writer->batch;
-    const double work = cz_total_work(batch, 0);
-    const CzEnergy energy = cz_energy_of(batch, 0, work);
+    const CzEnergy energy = cz_energy_fill(batch, 0);
     put(writer, CZ_CHANNEL_KINETIC_ENERGY, 0, 1e-3 * energy.final_kinetic);
-    put(writer, CZ_CHANNEL_ENERGY_TAKEN_UP, 0, 1e-3 * work);
+    put(writer, CZ_CHANNEL_ENERGY_TAKEN_UP, 0, 1e-3 * batch->design[0].work);
     put(writer, CZ_CHANNEL_WHEEL_RAIL_ENERGY, 0, 1e-3 * energy.wheel_rail);
     put(writer, CZ_CHANNEL_RUNNING_GEAR_ENERGY, 0, 1e-3 * energy.running_gear);
     put(writer, CZ_CHANNEL_TRACK_ENERGY, 0, 1e-3 * energy.track);
     put(writer, CZ_CHANNEL_STORED_ENERGY, 0, 1e-3 * energy.stored);
-    put(writer, CZ_CHANNEL_ENERGY_IMBALANCE, 0,
-        1e-3 * (energy.final_kinetic + work - energy.initial));
+    put(writer, CZ_CHANNEL_ENERGY_IMBALANCE, 0, 1e-3 * cz_balance_residual(batch, 0));
 }
 
 static void put_all(Writer *writer) {

@@ -40,6 +40,7 @@ typedef struct CzProgressOfDesign {
     double initial_energy;
     double balance;       /* largest |residual| so far [J] */
     long accounts_taken;  /* steps after which the accounts were taken, plus 1; 0 at first */
+    double kinetic, work; /* of the bodies and of all laws, when they were taken [J] */
     int n_look;           /* examinations of the end criterion so far */
     const char *awaited;  /* what the end criterion waits for; NULL when it is met */
     double quiet_since;   /* since when the end criterion is met; NaN when it is not */
@@ -177,8 +178,8 @@ bool cz_energy_checks_fail(const CzBatch *batch, int design, char *where, char *
 
 /* balance.c */
 double cz_kinetic_energy(const CzBatch *batch, int design);
-/* Residual of the energy balance [J]: kinetic energy and work of the laws less the initial energy.
- */
+/* Residual of the energy balance [J]: kinetic energy and work of the laws less the initial energy,
+ * when the accounts were taken. */
 double cz_balance_residual(const CzBatch *batch, int design);
 /* Work that all laws have received; classes as in ledger.def. */
 double cz_total_work(const CzBatch *batch, int design);
@@ -209,8 +210,6 @@ bool cz_ending_look(CzBatch *batch);
 /* summary.c */
 CZ_MUST_CHECK CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run);
 CzEnergy cz_energy_fill(const CzBatch *batch, int design);
-/* The same with the total work given. */
-CzEnergy cz_energy_of(const CzBatch *batch, int design, double work);
 /* Energy dissipated in the trains and at their wheels [J]: cheaper, as that in the track is not
  * summed up. */
 double cz_dissipated_above_track(const CzBatch *batch, int design);

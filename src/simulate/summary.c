@@ -32,34 +32,30 @@ static double stored_in_mixed(const CzBatch *batch, int design) {
 }
 
 double cz_dissipated_above_track(const CzBatch *batch, int design) {
-    return cz_total_work(batch, design) - stored_in_mixed(batch, design) -
+    return batch->design[design].work - stored_in_mixed(batch, design) -
            work_of(batch, design, CZ_LEDGER(moving_load)) -
            work_of(batch, design, CZ_LEDGER(track));
 }
 
 CzEnergy cz_energy_fill(const CzBatch *batch, int design) {
-    return cz_energy_of(batch, design, cz_total_work(batch, design));
-}
-
-CzEnergy cz_energy_of(const CzBatch *batch, int design, double work) {
     static const int running_gear[] = {CZ_LEDGER(secondary_damping), CZ_LEDGER(primary_damping),
                                        CZ_LEDGER(link_damping), CZ_LEDGER(axle_guidance_damping)};
+    const CzProgressOfDesign *progress = &batch->design[design];
     CzEnergy energy = {0};
     double in_track = 0.0;
-    energy.initial = batch->design[design].initial_energy;
-    energy.final_kinetic = cz_kinetic_energy(batch, design);
+    energy.initial = progress->initial_energy;
+    energy.final_kinetic = progress->kinetic;
     for (int car = 0; car < batch->model->n_car; ++car)
         in_track += cz_track_account(batch, cz_lane(batch, car, design));
     energy.stored += stored_in_mixed(batch, design) + in_track;
     energy.moving_load = work_of(batch, design, CZ_LEDGER(moving_load));
-    energy.dissipated = work - energy.stored - energy.moving_load;
+    energy.dissipated = progress->work - energy.stored - energy.moving_load;
     energy.wheel_rail = cz_wheel_rail_work(batch, design);
     for (size_t k = 0; k < sizeof running_gear / sizeof running_gear[0]; ++k)
         energy.running_gear += work_of(batch, design, running_gear[k]);
     energy.track = work_of(batch, design, CZ_LEDGER(track)) - in_track;
     energy.absorbers = energy.dissipated - energy.wheel_rail - energy.running_gear - energy.track;
-    energy.balance_error =
-        energy.initial > 0.0 ? batch->design[design].balance / energy.initial : 0.0;
+    energy.balance_error = energy.initial > 0.0 ? progress->balance / energy.initial : 0.0;
     return energy;
 }
 

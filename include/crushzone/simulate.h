@@ -215,9 +215,10 @@ typedef struct CzRunSummary {
 
 /* Track of a run in place of an elastic one; a rigid one stays rigid. */
 typedef enum CzTrackUse {
-    CZ_TRACK_USE_OWN,   /* the problem's; of a brief run: `receptance` */
-    CZ_TRACK_USE_MODAL, /* `modal` */
-    CZ_TRACK_USE_FE     /* `fe` */
+    CZ_TRACK_USE_OWN,    /* the problem's */
+    CZ_TRACK_USE_SEARCH, /* `receptance`; the problem's where it has no such fit */
+    CZ_TRACK_USE_MODAL,  /* `modal` */
+    CZ_TRACK_USE_FE      /* `fe` */
 } CzTrackUse;
 
 typedef struct CzSimulateOptions {

@@ -81,6 +81,7 @@ static CzStatus run_batch(const Search *search, Candidate *candidate, int n, CzV
     }
     CzSimulateOptions options = cz_simulate_options_default();
     options.record = false;
+    options.track = CZ_TRACK_USE_SEARCH;
     options.brief = true; /* an override occurs long before all wheels are at rest */
     const CzStatus status =
         n_design > 0 ? cz_simulate_batch(model, n_design, design, &options, run, error) : CZ_OK;

@@ -252,9 +252,11 @@ CzStatus cz_evaluate(CzEvaluator *evaluator, int n_point, const double *x, bool 
 
 CzStatus cz_evaluator_search(const CzEvaluator *evaluator, int n_point, const double *x,
                              CzEvaluation *evaluation, double *detail, CzError *error) {
+    const bool is_fit = evaluator->matches.n_item > 0; /* matches the whole run on its own track */
     const Block settings = {.evaluator = evaluator,
                             .manner = {.step_factor = evaluator->manner.step_factor,
                                        .integrator = CZ_INTEGRATOR_ZHAI,
+                                       .track = is_fit ? CZ_TRACK_USE_OWN : CZ_TRACK_USE_SEARCH,
                                        .brief = true}};
     return evaluate_all(&settings, n_point, x, evaluation, detail, error);
 }

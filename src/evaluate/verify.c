@@ -53,22 +53,14 @@ static CzTrack track_of(const CzEvaluator *evaluator) {
     return cz_problem_track(evaluator->problem);
 }
 
-/* Uses the problem's own track, also in a run that may end early. */
-static CzTrackUse own_track(const CzEvaluator *evaluator) {
-    return track_of(evaluator) == CZ_TRACK_MODAL ? CZ_TRACK_USE_MODAL
-           : track_of(evaluator) == CZ_TRACK_FE  ? CZ_TRACK_USE_FE
-                                                 : CZ_TRACK_USE_OWN;
-}
-
 static CzTrackUse track_of_solvers(const CzEvaluator *evaluator) {
-    return track_of(evaluator) == CZ_TRACK_FE ? CZ_TRACK_USE_MODAL : own_track(evaluator);
+    return track_of(evaluator) == CZ_TRACK_FE ? CZ_TRACK_USE_MODAL : CZ_TRACK_USE_OWN;
 }
 
 /* Settings of the runs of a method. All tracks are compared with the modal one, and that with
  * finite elements, which the solvers do not support. */
 static CzManner manner_of(const CzEvaluator *evaluator, CzVerifyMethod method, double solver_step) {
     CzManner manner = evaluator->manner;
-    manner.track = own_track(evaluator);
     switch (method) {
     case CZ_METHOD_HALF_STEP:
         manner.step_factor *= 0.5;
@@ -351,7 +343,6 @@ static CzStatus find_settled(CzVerification *verification, const CzEvaluator *ev
                              const double *x, const CzEvaluation *record, Number *number,
                              CzEvaluation *settled, CzError *error) {
     CzManner manner = evaluator->manner;
-    manner.track = own_track(evaluator);
     manner.brief = true;
     CZ_TRY(cz_evaluator_again(evaluator, &manner, x, settled, error));
     verification->until_settled =

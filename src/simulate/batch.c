@@ -59,13 +59,12 @@ static CzStatus fill_designs(CzBatch *batch, const CzVehicle *own, CzError *erro
     return CZ_OK;
 }
 
-/* A search uses the receptance track where there is one, a production run the track of the file. */
 static CzTrack track_of(const CzBatch *batch, CzTrackUse use) {
     const CzTrack own = (CzTrack)batch->model->simulation->track;
-    if (own == CZ_TRACK_RIGID)
+    if (own == CZ_TRACK_RIGID || use == CZ_TRACK_USE_OWN)
         return own;
-    if (use == CZ_TRACK_USE_OWN)
-        return batch->brief && batch->model->track->n_receptance > 0 ? CZ_TRACK_RECEPTANCE : own;
+    if (use == CZ_TRACK_USE_SEARCH)
+        return batch->model->track->n_receptance > 0 ? CZ_TRACK_RECEPTANCE : own;
     return use == CZ_TRACK_USE_MODAL ? CZ_TRACK_MODAL : CZ_TRACK_FE;
 }
 

@@ -87,6 +87,7 @@ static void a_track_that_cannot_be_fitted_is_refused_with_an_alternative(void **
     cz_problem_free(problem);
     CzSimulateOptions brief = cz_simulate_options_default();
     brief.brief = true;
+    brief.track = CZ_TRACK_USE_SEARCH;
     brief.record = false;
     for (int i = 0; i < 2; i++) {
         CzSimulateOptions simulate = i == 0 ? cz_simulate_options_default() : brief;

@@ -19,6 +19,9 @@ put src/report/table.c '/* n */\n#include "laws/tube.h"\nvoid f(void) {\n    pri
 put src/report/other.c '#include <nlopt.h>'
 put src/optimise/adapter.c '/* n */\n#include <nlopt.h>'
 put src/cli/helpers.c '/* n */\n#include "report/table.h"'
+put src/statistics/share.c '/* n */\n#include "model/model.h"'
+put src/problem/draws.c '/* n */\n#include "statistics/share.h"'
+put src/evaluate/draws.c '/* n */\n#include "statistics/share.h"'
 put src/integrate/step.c '/* n */\n#include "crushzone/model.h"'
 put src/model/list.c '/* n */\n#include "crushzone/events.def"\n#include "crushzone/problem.h"\n#include "laws/tube.h"'
 put src/physics/new.c '/* n */'
@@ -34,7 +37,7 @@ put src/report/bars.c '/* n */\n#include "simulate/filter.h"\nstatus = cz_model_
 put demo 'if then'
 awk 'BEGIN { print "/* n */"; for (i = 0; i < 500; i++) print "int a;" }' >src/base/long.c
 
-for file in src/base/number.c:2 src/laws/tube.h:2 src/report/table.c:2 src/integrate/step.c:2; do
+for file in src/base/number.c:2 src/laws/tube.h:2 src/report/table.c:2 src/integrate/step.c:2 src/statistics/share.c:2 src/problem/draws.c:2; do
     check "an include against the arrows is found: $file" finds "^$file:" include_arrows
 done
 check "includes along the arrows are accepted" sh -c '! grep -qE "src/(model|cli)/" found.txt'

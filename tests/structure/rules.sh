@@ -1,13 +1,14 @@
 # The rules of the tree, each a function that prints the offenders, one a line; run from the project's root.
 
-library_folders="base laws text tree problem model fit dynamics integrate simulate evaluate optimise report"
+library_folders="base statistics laws text tree problem model fit dynamics integrate simulate evaluate optimise report"
 folders="$library_folders cli"
 c_files() { # c_files FOLDER...: all C sources, headers and lists in them
     find "$@" -type f \( -name '*.c' -o -name '*.h' -o -name '*.def' \) 2>/dev/null | sort
 }
 
 # Arrows between the folders go one way: cli, report, optimise, evaluate, simulate, dynamics, fit, model, problem, tree, text, base.
-# dynamics, model and fit include laws, which includes nothing; simulate and dynamics include integrate, which includes base.
+# dynamics, model and fit include laws, which includes nothing; simulate and dynamics include integrate, which includes base;
+# evaluate, optimise and report include statistics, which includes base.
 include_arrows() {
     for folder in $folders; do
         for file in $(c_files src/$folder); do
@@ -32,8 +33,9 @@ include_arrows() {
                     if (to == from) next
                     if (from == "laws") { offend(); next }
                     if (to == "laws") { if (from != "dynamics" && from != "model" && from != "fit") offend(); next }
-                    if (from == "integrate") { if (to != "base") offend(); next }
+                    if (from == "integrate" || from == "statistics") { if (to != "base") offend(); next }
                     if (to == "integrate") { if (from != "simulate" && from != "dynamics") offend(); next }
+                    if (to == "statistics") { if (from != "evaluate" && from != "optimise" && from != "report") offend(); next }
                     if (!(to in rank) || rank[to] > rank[from]) offend()
                 }
                 function offend() { print FILENAME ":" FNR ": " $0 }' "$file"

@@ -1,0 +1,1 @@
+cz_tests(unit)

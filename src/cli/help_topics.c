@@ -130,7 +130,8 @@ static void write_design_rules(void) {
     } rules[] = {
 #define MAX "at most"
 #define MIN "at least"
-#define CZ_RULE(name, metric, bound, limit, speeds, needs, doc) {name, metric, bound, limit, doc},
+#define CZ_RULE(name, metric, bound, limit, bare, speeds, needs, doc)                              \
+    {name, metric, bound, limit, doc},
 #include "evaluate/design_rules.def"
 #undef CZ_RULE
 #undef MIN

@@ -39,7 +39,7 @@ static CzStatus append(Builder *builder, const CzCheck *check) {
 static bool holds_in(const CzLimit *limit, const CzScene *scene) {
     bool is_named = false;
     for (int i = 0; i < limit->scenarios.n_text; i++)
-        is_named |= cz_scene_is(scene, limit->scenarios.text[i]);
+        is_named |= cz_scene_is_like(scene, limit->scenarios.text[i]);
     return limit->scenarios.n_text > 0
                ? is_named
                : !scene->is_overload && cz_scene_is_judged_by(scene, limit->name);
@@ -59,6 +59,7 @@ static CzStatus append_in_scenarios(Builder *builder, CzCheck check, const CzLim
         n_scene++;
         picks |= cz_metric_picks(&check.metric, &builder->scene[s]);
         check.scenario = s;
+        check.is_bare = !builder->scene[s].has_reserves;
         CZ_TRY(append(builder, &check));
     }
     const bool from_profile = check.profile != NULL;
@@ -139,6 +140,7 @@ typedef struct Rule {
     const char *name, *metric;
     bool is_minimum;
     double limit;
+    double bare; /* limit without a reserve; NaN: the rule then does not apply */
     Speeds speeds;
     Needs needs;
     const char *doc;
@@ -146,8 +148,8 @@ typedef struct Rule {
 
 #define MAX false
 #define MIN true
-#define CZ_RULE(name, metric, bound, limit, speeds, needs, doc)                                    \
-    {name, metric, bound, limit, speeds, needs, doc},
+#define CZ_RULE(name, metric, bound, limit, bare, speeds, needs, doc)                              \
+    {name, metric, bound, limit, bare, speeds, needs, doc},
 static const Rule rules[] = {
 #include "evaluate/design_rules.def"
 };
@@ -202,6 +204,34 @@ static CzStatus append_missing(Builder *builder, const char *name, const char *m
     return append(builder, &check);
 }
 
+/* Limit of a rule in a scene: its physical limit where no reserves are required, unless the rule is
+ * among those that require theirs there, too. NaN where it does not apply. */
+static double limit_in(const Builder *builder, const Rule *rule, const CzScene *scene) {
+    const CzTexts *kept = &cz_problem_input(builder->problem)->uncertainty.reserves;
+    return scene->has_reserves || cz_text_is_among(rule->name, kept->n_text, kept->text)
+               ? rule->limit
+               : rule->bare;
+}
+
+/* A rule of the design itself, also for the vehicles of each variation without reserves, whose
+ * values a search does not see otherwise. */
+static CzStatus append_design_rule(Builder *builder, const Rule *rule, CzCheck check) {
+    check.scenario = CZ_NO_SCENARIO;
+    CZ_TRY(append(builder, &check));
+    int last = 0;
+    for (int s = 0; s < builder->n_scene; s++) {
+        const CzScene *scene = &builder->scene[s];
+        check.limit = limit_in(builder, rule, scene);
+        if (scene->variation <= last || scene->has_reserves || isnan(check.limit))
+            continue;
+        last = scene->variation;
+        check.scene_of_vehicles = s;
+        check.is_bare = true;
+        CZ_TRY(append(builder, &check));
+    }
+    return CZ_OK;
+}
+
 static CzStatus append_rule(Builder *builder, const Rule *rule) {
     CzCheck check = {.name = rule->name,
                      .limit = rule->limit,
@@ -209,14 +239,14 @@ static CzStatus append_rule(Builder *builder, const Rule *rule) {
                      .source = rule->doc};
     CZ_TRY(cz_metric_parse(rule->metric, &check.metric, builder->error));
     check.scale = check.metric.kind->scale;
-    if (rule->speeds == DESIGN) {
-        check.scenario = CZ_NO_SCENARIO;
-        return append(builder, &check);
-    }
+    if (rule->speeds == DESIGN)
+        return append_design_rule(builder, rule, check);
     bool is_judged = false, is_left_out = false;
     for (int s = 0; s < builder->n_scene; s++) {
         check.scenario = s;
-        if (!rule_holds_in(rule->speeds, &builder->scene[s]))
+        check.limit = limit_in(builder, rule, &builder->scene[s]);
+        check.is_bare = !builder->scene[s].has_reserves;
+        if (isnan(check.limit) || !rule_holds_in(rule->speeds, &builder->scene[s]))
             continue;
         const bool judges = cz_scene_is_judged_by(&builder->scene[s], rule->name);
         if (judges)
@@ -235,7 +265,7 @@ static double fastest_up_to(const Builder *builder, double bound) {
     double fastest = 0;
     for (int s = 0; s < builder->n_scene; s++) {
         const CzScene *scene = &builder->scene[s];
-        if (!scene->is_overload && scene->judged_by == NULL &&
+        if (!scene->is_overload && scene->has_reserves && scene->judged_by == NULL &&
             scene->closing_speed * (1 - 1e-9) <= bound)
             fastest = fmax(fastest, scene->closing_speed);
     }

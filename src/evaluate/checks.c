@@ -24,6 +24,11 @@ static double margin_of(double value, double limit, bool is_minimum, double scal
 
 static const char beyond_validity[] = "beyond model validity: a vehicle climbed in this run";
 
+const char *cz_check_scenario(const CzCheck *check, const CzScene *scene) {
+    const int s = check->scenario != CZ_NO_SCENARIO ? check->scenario : check->scene_of_vehicles;
+    return check->scenario == CZ_NO_SCENARIO && s == 0 ? "design" : scene[s].name;
+}
+
 /* The result with everything that does not depend on a run. */
 static CzCheckResult blank_result(const CzCheck *check, const CzScene *scene) {
     return (CzCheckResult){.name = check->name,

@@ -15,9 +15,11 @@ enum { CZ_NO_SCENARIO = -1 };
 
 typedef struct CzCheck {
     const char *name;
-    int scenario;    /* or CZ_NO_SCENARIO */
-    CzMetric metric; /* unset when `missing` */
-    double limit;    /* in the metric's unit */
+    int scenario;          /* or CZ_NO_SCENARIO */
+    int scene_of_vehicles; /* of a check of the design: a scene whose vehicles it judges; 0, or one
+                              that changes values */
+    CzMetric metric;       /* unset when `missing` */
+    double limit;          /* in the metric's unit */
     bool is_minimum;
     double scale; /* smallest scale of the margin */
     const char *profile, *clause, *source, *confidence;
@@ -25,6 +27,8 @@ typedef struct CzCheck {
     bool is_target;      /* a constraint of the optimiser only, not listed */
     bool is_rule;        /* a rule of problem files, for any design */
     bool is_provisional; /* the limit is unconfirmed */
+    bool is_bare; /* without reserves: no margin is required, and the objective does not contain it
+                   */
     bool is_constraint;
 } CzCheck;
 
@@ -42,6 +46,14 @@ typedef struct CzChecklist {
 CZ_MUST_CHECK CzStatus cz_checklist_build(const CzProblem *problem, int n_scene,
                                           const CzScene *scene, CzArena *arena,
                                           CzChecklist *checklist, CzError *error);
+
+/* Margin that a search requires of a check. */
+static inline double cz_checklist_required(const CzChecklist *list, const CzCheck *check) {
+    return check->is_rule || check->is_bare ? 0 : list->required_margin;
+}
+
+/* Name of the scenario of a check: "design" for a check of the design as written. */
+const char *cz_check_scenario(const CzCheck *check, const CzScene *scene);
 
 /* Evaluates one check. `subject` has the run of the check's scenario, NULL when there is none;
  * `failure` is then the reason, NULL otherwise. */

@@ -32,11 +32,21 @@ CzSubject cz_subject_of(const CzEvaluator *evaluator, const CzVehicle *vehicles,
     return subject;
 }
 
-/* The subject of a check: its scenario with its run, or the design alone. */
-static CzSubject subject_at(const CzEvaluator *evaluator, const CzVehicle *vehicles, int scenario,
+/* The subject of a scenario with its run. */
+static CzSubject subject_in(const CzEvaluator *evaluator, const CzVehicle *vehicles, int scenario,
                             const CzRunSummary *const *run) {
-    return cz_subject_of(evaluator, vehicles, scenario,
-                         scenario == CZ_NO_SCENARIO ? NULL : run[scenario]);
+    return cz_subject_of(evaluator, cz_vehicles_in(evaluator, vehicles, scenario), scenario,
+                         run[scenario]);
+}
+
+/* The subject of a check: its scenario with its run, or the design alone. */
+static CzSubject subject_at(const CzEvaluator *evaluator, const CzVehicle *vehicles,
+                            const CzCheck *check, const CzRunSummary *const *run) {
+    if (check->scenario != CZ_NO_SCENARIO)
+        return subject_in(evaluator, vehicles, check->scenario, run);
+    const CzVehicle *own = cz_vehicles_in(evaluator, vehicles, check->scene_of_vehicles);
+    return cz_subject_of(evaluator, check->scene_of_vehicles > 0 ? own : vehicles, CZ_NO_SCENARIO,
+                         NULL);
 }
 
 static double metric_objective(const CzEvaluator *evaluator, const CzVehicle *vehicles,
@@ -48,9 +58,10 @@ static double metric_objective(const CzEvaluator *evaluator, const CzVehicle *ve
     double worst = NAN;
     for (int s = 0; s < evaluator->n_scene; s++) {
         const CzScene *scene = &evaluator->scene[s];
-        if (scene->is_overload || scene->judged_by != NULL || run[s] == NULL)
+        if (scene->is_overload || scene->judged_by != NULL || !scene->has_reserves ||
+            run[s] == NULL)
             continue;
-        const CzSubject subject = cz_subject_of(evaluator, vehicles, s, run[s]);
+        const CzSubject subject = subject_in(evaluator, vehicles, s, run);
         worst = fmax(worst, cz_metric_value(&evaluator->objective, &subject, true).value);
     }
     return worst;
@@ -114,12 +125,13 @@ static void judge_checks(const CzEvaluator *evaluator, const CzVehicle *vehicles
     for (int i = 0; i < evaluator->list.n_check; i++) {
         const CzCheck *check = &evaluator->list.check[i];
         const bool is_of_run = check->scenario != CZ_NO_SCENARIO;
-        const CzSubject subject = subject_at(evaluator, vehicles, check->scenario, run);
+        const CzSubject subject = subject_at(evaluator, vehicles, check, run);
         CzCheckResult result =
             cz_check_judge(check, &subject, is_of_run ? failure_of(subject.run) : NULL);
         /* A search uses the number itself to leave designs that climb. */
-        const double required = check->is_rule ? 0 : evaluator->list.required_margin;
+        const double required = cz_checklist_required(&evaluator->list, check);
         const double constraint = cz_check_constraint(&result, required);
+        result.scenario = cz_check_scenario(check, evaluator->scene);
         result.is_omitted = is_of_run && subject.run == NULL;
         cz_check_blank_total(check, &result);
         if (!check->is_target)
@@ -166,7 +178,7 @@ static CzStatus judge_matches(const CzEvaluator *evaluator, const CzVehicle *veh
     for (int i = 0; i < evaluator->matches.n_item; i++) {
         const CzMatchItem *item = &evaluator->matches.item[i];
         const int s = item->scenario;
-        const CzSubject subject = cz_subject_of(evaluator, vehicles, s, run[s]);
+        const CzSubject subject = subject_in(evaluator, vehicles, s, run);
         CzMatchResult *match = &evaluation->match[evaluation->n_match++];
         *match = cz_match_begin(item, subject.scene);
         if (run[s] != NULL && failure_of(run[s]) == NULL)
@@ -246,7 +258,7 @@ static CzStatus compose_residuals(const CzEvaluator *evaluator, const CzVehicle 
                                   double *detail, CzError *error) {
     for (int i = 0; i < evaluator->matches.n_item; i++) {
         const CzMatchItem *item = &evaluator->matches.item[i];
-        const CzSubject subject = subject_at(evaluator, vehicles, item->scenario, run);
+        const CzSubject subject = subject_in(evaluator, vehicles, item->scenario, run);
         CzMatchResult match;
         CZ_TRY(cz_match_judge(item, &subject, whole[item->scenario], &match, detail, error));
         detail += cz_match_n_detail(item);
@@ -262,8 +274,9 @@ CzStatus cz_compose_details(const CzEvaluator *evaluator, const CzVehicle *vehic
     int n = 0;
     for (int j = 0; j < evaluator->list.n_constraint; j++) {
         const CzCheck *check = &evaluator->list.check[evaluator->constraint_check[j]];
-        const CzSubject subject = subject_at(evaluator, vehicles, check->scenario, run);
-        n += cz_check_details(check, &subject, evaluator->list.required_margin, detail + n);
+        const CzSubject subject = subject_at(evaluator, vehicles, check, run);
+        n += cz_check_details(check, &subject, cz_checklist_required(&evaluator->list, check),
+                              detail + n);
     }
     return CZ_OK;
 }

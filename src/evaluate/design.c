@@ -377,12 +377,38 @@ CzStatus cz_design_check_start(const CzProblem *problem, const CzDesign *design,
     return CZ_OK;
 }
 
-void cz_design_apply(const CzDesign *design, const double *x, CzVehicle *vehicles) {
+static void write_number(CzVehicle *vehicles, const CzDesignPlace *place, double value) {
+    memcpy((char *)&vehicles[place->vehicle] + place->offset, &value, sizeof value);
+}
+
+/* Writes the places that a variation changes once more; the changes of one place follow one
+ * another. */
+static void apply_changes(const CzDesign *design, int variation, const double *x,
+                          CzVehicle *vehicles) {
+    const CzDesignChange *last = NULL;
+    double number = 0;
+    for (int i = 0; i < design->n_change; i++) {
+        const CzDesignChange *change = &design->change[i];
+        if (change->variation != variation)
+            continue;
+        const CzDesignPlace *place = &design->variable[change->variable].place[change->place];
+        const bool is_new =
+            last == NULL || last->variable != change->variable || last->place != change->place;
+        if (is_new)
+            number = x[change->variable] * (place->scale / change->unit);
+        number = change->kind == CZ_CASE_FACTOR ? number * change->number
+                 : change->kind == CZ_CASE_ADD  ? number + change->number
+                                                : change->number;
+        write_number(vehicles, place, number * change->unit);
+        last = change;
+    }
+}
+
+void cz_design_apply(const CzDesign *design, int variation, const double *x, CzVehicle *vehicles) {
     for (int i = 0; i < design->n_variable && !design->is_fit; i++)
         for (int j = 0; j < design->variable[i].n_place && design->variable[i].info.n_choice == 0;
-             j++) {
-            const CzDesignPlace *place = &design->variable[i].place[j];
-            const double value = x[i] * place->scale;
-            memcpy((char *)&vehicles[place->vehicle] + place->offset, &value, sizeof value);
-        }
+             j++)
+            write_number(vehicles, &design->variable[i].place[j],
+                         x[i] * design->variable[i].place[j].scale);
+    apply_changes(design, variation, x, vehicles);
 }

@@ -27,7 +27,16 @@ typedef struct CzDesignVariable {
     CzDesignPlace *place; /* (n_place); those of `info` are as a file names them */
 } CzDesignVariable;
 
+/* Change of a design variable's place by a variation: of its value in the unit of the place. */
+typedef struct CzDesignChange {
+    int variation, variable, place;
+    CzCaseKind kind;
+    double number, unit; /* SI value of one unit of the changed path's key */
+} CzDesignChange;
+
 typedef struct CzDesign {
+    int n_change;
+    CzDesignChange *change; /* in the order of variations (n_change) */
     int n_variable;
     CzDesignVariable *variable; /* (n_variable) */
     bool is_fit; /* designs are reread; variables may be any numbers that may be fitted */
@@ -44,10 +53,16 @@ CZ_MUST_CHECK CzStatus cz_design_build(const CzProblem *problem, int n_scene, co
 CZ_MUST_CHECK CzStatus cz_design_check_start(const CzProblem *problem, const CzDesign *design,
                                              CzError *error);
 
-/* Writes the numbers of a design into a copy of the vehicle array of its choices; x is
+/* Finds the changes that scenarios make to the places of variables (variations.c). Statuses as
+ * above. */
+CZ_MUST_CHECK CzStatus cz_variations_build(const CzProblem *problem, int n_scene,
+                                           const CzScene *scene, CzArena *arena, CzDesign *design,
+                                           CzError *error);
+
+/* Writes the numbers of a design into a copy of the vehicles of its choices in one variation; x is
  * (n_variable).
  */
-void cz_design_apply(const CzDesign *design, const double *x, CzVehicle *vehicles);
+void cz_design_apply(const CzDesign *design, int variation, const double *x, CzVehicle *vehicles);
 
 /* ---- choices ---- */
 

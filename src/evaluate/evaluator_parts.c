@@ -88,8 +88,7 @@ static CzStatus list_constraints(CzEvaluator *evaluator, CzError *error) {
             continue;
         char name[256];
         snprintf(name, sizeof name, "%s, %s", check->name,
-                 check->scenario == CZ_NO_SCENARIO ? "design"
-                                                   : evaluator->scene[check->scenario].name);
+                 cz_check_scenario(check, evaluator->scene));
         evaluator->constraint_check[j] = i;
         evaluator->constraint_name[j] = cz_arena_copy_text(arena, name, strlen(name));
         if (evaluator->constraint_name[j++] == NULL)
@@ -136,10 +135,13 @@ static CzStatus build(CzEvaluator *evaluator, const char *only, CzError *error) 
     CzArena *arena = &evaluator->arena;
     cz_problem_vehicles(problem, &evaluator->n_vehicle);
     CZ_TRY(cz_scenes_build(problem, arena, &evaluator->n_scene, &evaluator->scene, error));
+    evaluator->n_variation = (int)cz_scenes_n_variation(evaluator->n_scene, evaluator->scene);
     CZ_TRY(cz_obstacles_find(problem, evaluator->n_scene, evaluator->scene, arena,
                              &evaluator->obstacles, error));
     CZ_TRY(cz_design_build(problem, evaluator->n_scene, evaluator->scene, arena, &evaluator->design,
                            error));
+    CZ_TRY(cz_variations_build(problem, evaluator->n_scene, evaluator->scene, arena,
+                               &evaluator->design, error));
     CZ_TRY(cz_checklist_build(problem, evaluator->n_scene, evaluator->scene, arena,
                               &evaluator->list, error));
     CZ_TRY(cz_matches_build(problem, evaluator->n_scene, evaluator->scene, arena,
@@ -244,7 +246,7 @@ static CzStatus check_start_vehicles(const CzEvaluator *evaluator, CzError *erro
             x[i] = info->is_fixed ? info->fixed_at : info->start;
         }
         memcpy(vehicles, evaluator->vehicles, n_vehicle * sizeof *vehicles);
-        cz_design_apply(design, x, vehicles);
+        cz_design_apply(design, 0, x, vehicles);
         CzError broken = {0};
         status = cz_problem_check_vehicles(evaluator->problem, vehicles, &broken);
         if (status != CZ_OK) {

@@ -15,14 +15,14 @@ struct CzEvaluator {
     CzManner manner; /* of runs outside a search */
     CzObstacles obstacles;
     int n_scene;
-    CzScene *scene;            /* (n_scene) */
-    const char *only;          /* the only scenario that is run; NULL for all */
-    int n_variant;             /* one per combination of choices, 1 without any */
-    CzVariant *variant;        /* (n_variant) */
-    int own;                   /* variant of the file as written */
-    CzModel *const *model;     /* its models; NULL for scenarios left out (n_scene) */
-    const CzVehicle *vehicles; /* its vehicles (n_vehicle) */
-    int n_vehicle;
+    CzScene *scene;        /* (n_scene) */
+    const char *only;      /* the only scenario that is run; NULL for all */
+    int n_variant;         /* one per combination of choices, 1 without any */
+    CzVariant *variant;    /* (n_variant) */
+    int own;               /* variant of the file as written */
+    CzModel *const *model; /* its models; NULL for scenarios left out (n_scene) */
+    int n_vehicle, n_variation;
+    const CzVehicle *vehicles; /* its vehicles in each variation (n_variation x n_vehicle) */
     double rate; /* crush rate for tube forces: half the largest closing speed [m/s] */
     CzDesign design;
     CzChecklist list;
@@ -36,5 +36,11 @@ struct CzEvaluator {
     void *own_data;
     const volatile sig_atomic_t *stop; /* a flag that ends an evaluation; NULL when none */
 };
+
+/* The vehicles of a scenario among those of all variations of a design. */
+static inline const CzVehicle *cz_vehicles_in(const CzEvaluator *evaluator,
+                                              const CzVehicle *vehicles, int scenario) {
+    return vehicles + evaluator->scene[scenario].variation * evaluator->n_vehicle;
+}
 
 #endif

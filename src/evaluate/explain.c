@@ -70,7 +70,8 @@ static CzStatus run_batch(const Search *search, Candidate *candidate, int n, CzV
     int n_design = 0;
     for (int i = 0; i < n; i++) {
         CzVehicle *own = vehicles + (size_t)n_design * n_vehicle;
-        memcpy(own, evaluator->vehicles, n_vehicle * sizeof *own);
+        memcpy(own, cz_vehicles_in(evaluator, evaluator->vehicles, search->climbing.scenario),
+               n_vehicle * sizeof *own);
         candidate[i].value =
             cz_candidate_apply(candidate[i].kind, candidate[i].change, own, evaluator->n_vehicle);
         candidate[i].margin = NAN;
@@ -377,8 +378,9 @@ static CzStatus choose_run(const CzEvaluator *evaluator, CzEvaluation *evaluatio
             continue;
         const CzRunSummary *summary = cz_run_summary(evaluation->run[run]);
         const CzClimbing climbing = cz_climbing_of(evaluator, s);
-        const CzCheckResult worst =
-            cz_climbing_judge(&climbing, evaluator, evaluator->vehicles, summary);
+        const CzCheckResult worst = cz_climbing_judge(
+            &climbing, evaluator, cz_vehicles_in(evaluator, evaluator->vehicles, climbing.scenario),
+            summary);
         if (summary->status != CZ_OK)
             return cz_fail(error, CZ_STATUS_RUN_FAILED, "scenario '%s' failed", summary->scenario);
         if (summary->ended == CZ_ENDED_INCOMPLETE)

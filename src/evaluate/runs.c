@@ -28,7 +28,7 @@ typedef struct Block {
     const double *x;                 /* (n_point x n_variable); NULL: the file's own values */
     int combination[BLOCK];          /* of each design (n_point) */
     int order[BLOCK];                /* designs sorted by combination (n_point) */
-    const CzVehicle *vehicle[BLOCK]; /* the whole vehicle array of each design (n_point) */
+    const CzVehicle *vehicle[BLOCK]; /* the vehicles of each design in all variations (n_point) */
     CzVariant own[BLOCK];            /* variants of designs that are read again (n_point) */
     bool is_refused[BLOCK];          /* designs that break a rule of files (n_point) */
     CzRun **run;                     /* (n_point x n_scene) */
@@ -54,7 +54,8 @@ static CzStatus run_designs(const Block *block, const CzModel *model, const Task
     const CzVehicle *vehicles[BLOCK];
     CzRun *run[BLOCK] = {NULL};
     for (int i = 0; i < task->n; i++)
-        vehicles[i] = block->vehicle[block->order[task->first + i]];
+        vehicles[i] =
+            cz_vehicles_in(evaluator, block->vehicle[block->order[task->first + i]], task->scene);
     const CzStatus status = cz_simulate_batch(model, task->n, vehicles, &options, run, error);
     for (int i = 0; i < task->n; i++)
         block->run[block->order[task->first + i] * evaluator->n_scene + task->scene] = run[i];
@@ -195,7 +196,7 @@ static CzStatus evaluate_block(const Block *settings, int n_point, const double 
     block.x = x;
     block.record |= evaluator->matches.needs_record;
     block.manner.brief &= evaluator->matches.n_item == 0;
-    const size_t n_vehicle = (size_t)evaluator->n_vehicle;
+    const size_t n_vehicle = (size_t)(evaluator->n_variation * evaluator->n_vehicle);
     CzVehicle *copies = malloc((size_t)n_point * n_vehicle * sizeof *copies);
     block.run = calloc((size_t)n_point * (size_t)evaluator->n_scene, sizeof(CzRun *));
     CzStatus status = CZ_OK;
@@ -206,8 +207,9 @@ static CzStatus evaluate_block(const Block *settings, int n_point, const double 
         CzVehicle *vehicles = copies + (size_t)i * n_vehicle;
         memcpy(vehicles, evaluator->variant[block.combination[i]].vehicles,
                n_vehicle * sizeof *vehicles);
-        if (x != NULL)
-            cz_design_apply(&evaluator->design, x + i * evaluator->design.n_variable, vehicles);
+        for (int v = 0; x != NULL && v < evaluator->n_variation; v++)
+            cz_design_apply(&evaluator->design, v, x + i * evaluator->design.n_variable,
+                            vehicles + v * evaluator->n_vehicle);
         block.vehicle[i] = vehicles;
     }
     if (status == CZ_OK)

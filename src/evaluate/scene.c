@@ -10,6 +10,7 @@ static double value_or(double value, double fallback) {
     return isnan(value) ? fallback : value;
 }
 
+/* `problem` is that of the scenario. */
 static CzStatus list_vehicles(const CzProblem *problem, CzArena *arena, CzScene *scene,
                               CzError *error) {
     const CzInput *input = cz_problem_input(problem);
@@ -34,10 +35,38 @@ static CzStatus list_vehicles(const CzProblem *problem, CzArena *arena, CzScene 
     return CZ_OK;
 }
 
-static CzStatus build_scene(const CzProblem *problem, int index, CzArena *arena, CzScene *scene,
+/* The scene before that a scenario is like; NULL for none. */
+static const CzScene *find_like(const CzScenario *scenario, int index, const CzScene *scene) {
+    for (int i = 0; i < index && scenario->like != NULL; i++)
+        if (strcmp(scene[i].name, scenario->like) == 0)
+            return &scene[i];
+    return NULL;
+}
+
+/* Counts the problems that scenarios change: scenarios with equal changes that follow one another
+ * share one. */
+static int count_variation(const CzProblem *problem, int index, const CzScene *scene) {
+    const CzProblem *own = cz_problem_in_scenario(problem, index);
+    int last = 0;
+    if (own == problem)
+        return 0;
+    for (int i = 0; i < index; i++) {
+        if (cz_problem_in_scenario(problem, i) == own)
+            return scene[i].variation;
+        last = scene[i].variation > last ? scene[i].variation : last;
+    }
+    return last + 1;
+}
+
+static CzStatus build_scene(const CzProblem *problem, int index, CzArena *arena, CzScene *all,
                             CzError *error) {
+    CzScene *scene = &all[index];
+    scene->variation = count_variation(problem, index, all);
+    problem = cz_problem_in_scenario(problem, index);
     const CzInput *input = cz_problem_input(problem);
     const CzScenario *scenario = &input->scenarios[index];
+    scene->like = find_like(scenario, index, all);
+    scene->has_reserves = scenario->reserves;
     scene->name = scenario->name;
     scene->family = scenario->family;
     for (int side = 0; side < 2; side++)
@@ -55,6 +84,20 @@ bool cz_scene_is(const CzScene *scene, const char *name) {
            (scene->family != NULL && strcmp(scene->family, name) == 0);
 }
 
+bool cz_scene_is_like(const CzScene *scene, const char *name) {
+    for (; scene != NULL; scene = scene->like)
+        if (cz_scene_is(scene, name))
+            return true;
+    return false;
+}
+
+size_t cz_scenes_n_variation(int n_scene, const CzScene *scene) {
+    int last = 0;
+    for (int s = 0; s < n_scene; s++)
+        last = scene[s].variation > last ? scene[s].variation : last;
+    return (size_t)last + 1;
+}
+
 bool cz_scene_is_judged_by(const CzScene *scene, const char *check) {
     const CzTexts *judges = scene->judged_by;
     return judges == NULL || cz_text_is_among(check, judges->n_text, judges->text);
@@ -67,6 +110,6 @@ CzStatus cz_scenes_build(const CzProblem *problem, CzArena *arena, int *n_scene,
     if (*scene == NULL)
         return cz_no_memory(error, "the scenarios");
     for (int index = 0; index < *n_scene; index++)
-        CZ_TRY(build_scene(problem, index, arena, &(*scene)[index], error));
+        CZ_TRY(build_scene(problem, index, arena, *scene, error));
     return CZ_OK;
 }

@@ -7,10 +7,13 @@
 #include "problem/problem.h"
 
 typedef struct CzScene {
-    const char *name;                /* of the scenario */
-    const char *family;              /* its family; NULL for none */
-    int train[2];                    /* trains of the problem, the one behind first */
-    int n_vehicle;                   /* of both trains */
+    const char *name;           /* of the scenario */
+    const char *family;         /* its family; NULL for none */
+    const struct CzScene *like; /* scene whose limits apply here too; NULL for none */
+    int variation; /* of the vehicles: 0 for those of the problem, else counted with the scenes that
+                      change values */
+    int train[2];  /* trains of the problem, the one behind first */
+    int n_vehicle; /* of both trains */
     const CzVehicle *const *vehicle; /* as written, along +x (n_vehicle) */
     const int *record;               /* their places in the problem's vehicle array (n_vehicle) */
     int colliding;                   /* interface between the two trains */
@@ -18,10 +21,18 @@ typedef struct CzScene {
     const CzTexts *judged_by;        /* names of the only checks that apply to it; NULL for all */
     bool is_obstacle[2];             /* whether a train is one, and so not judged */
     bool is_overload;                /* heavier than the others: judged for bottoming only */
+    bool has_reserves;               /* whether design rules require their reserves */
 } CzScene;
 
 /* Whether a name denotes this scenario: its own name or that of its family. */
 bool cz_scene_is(const CzScene *scene, const char *name);
+
+/* Whether a limit that names a scenario or family applies here: this scene, or one that it is like.
+ */
+bool cz_scene_is_like(const CzScene *scene, const char *name);
+
+/* Number of variations of the vehicles, at least 1. */
+size_t cz_scenes_n_variation(int n_scene, const CzScene *scene);
 
 /* Whether a vehicle, counted as in `vehicle`, belongs to an obstacle. */
 static inline bool cz_scene_has_obstacle_at(const CzScene *scene, int vehicle) {

@@ -24,6 +24,7 @@ set(CZ_SOURCES_evaluate
     sweep_axis.c
     tasks.c
     variant.c
+    variations.c
     verdict.c
     verify.c
 )

@@ -80,7 +80,8 @@ static double read_metrics(int n_scenario, const CzRunSummary *const *run, void 
         for (int s = 0; s < n_scenario; s++) {
             if (run[s] == NULL)
                 continue;
-            const CzSubject subject = cz_subject_of(evaluator, evaluator->vehicles, s, run[s]);
+            const CzSubject subject = cz_subject_of(
+                evaluator, cz_vehicles_in(evaluator, evaluator->vehicles, s), s, run[s]);
             const CzMetricValue value = cz_metric_value(metric, &subject, !smallest);
             double *worst = &reading->point->metric[k];
             const bool is_worse =

@@ -12,8 +12,8 @@
 #include "evaluate/scene.h"
 
 typedef struct CzVariant {
-    CzProblem *owned; /* NULL for the problem as written */
-    const CzVehicle *vehicles;
+    CzProblem *owned;    /* NULL for the problem as written */
+    CzVehicle *vehicles; /* those of each variation (n_variation x n_vehicle) */
     int n_scene;
     CzModel **model; /* NULL for scenarios that are left out (n_scene) */
 } CzVariant;

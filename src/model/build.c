@@ -27,6 +27,7 @@ static const CzScenario default_scenario = {.name = "collision",
                                             .partner_brake_ratio = NAN,
                                             .friction = NAN,
                                             .mass_factor = 1.0,
+                                            .reserves = true,
                                             .duration = NAN};
 static const CzSimulation default_simulation = {
     .track = CZ_TRACK_RECEPTANCE,
@@ -298,7 +299,7 @@ CzStatus cz_model_build(const CzProblem *problem, int scenario, CzModel **model,
     *model = calloc(1, sizeof **model);
     if (*model == NULL)
         return cz_no_memory(error, "the model");
-    (*model)->problem = problem;
+    (*model)->problem = cz_problem_in_scenario(problem, scenario);
     const CzStatus status = build(*model, scenario, error);
     if (status != CZ_OK) {
         cz_model_free(*model);

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "problem/reading.h"
+#include "problem/changes.h"
 
 /* First mistake caused by the path itself, or NULL. */
 static const CzError *first_mistake(const CzReader *reader, const CzNode *place) {
@@ -62,6 +62,16 @@ static CzTarget make_target(const CzProblem *problem, const CzProblem *trial, co
     return target;
 }
 
+bool cz_targets_copy(const CzProblem *to, const CzProblem *from, const CzTargets *targets,
+                     CzTargets *copy) {
+    copy->target = malloc(((size_t)targets->n + 1) * sizeof *copy->target);
+    for (; copy->target != NULL && copy->n < targets->n; copy->n++) {
+        copy->target[copy->n] = targets->target[copy->n];
+        copy->target[copy->n].field = same_field(to, from, targets->target[copy->n].field);
+    }
+    return copy->target != NULL;
+}
+
 static int compare_targets(const void *a, const void *b) {
     const CzTarget *first = a, *second = b;
     if (first->match != second->match)
@@ -87,12 +97,15 @@ static CzStatus collect(const CzProblem *problem, const CzProblem *trial, const 
 
 /* Reads the problem with stand-ins as its last settings, applied in the usual order. */
 static CzStatus find(const CzProblem *problem, CzProblem *trial, CzSetting *stand_ins,
-                     const char *path, CzTargets *found, CzError *error) {
+                     const char *path, bool is_late, CzTargets *found, CzError *error) {
     CzReader *reader = &trial->reader;
     CzMatches matches = {0};
     const CzSource *source = cz_sources_add(&reader->sources, "(path)", ".", path, strlen(path));
     const CzNode place = {.source = source, .line = 1, .column = 1};
-    *stand_ins = (CzSetting){.path = path, .place = &place, .matches = &matches};
+    *stand_ins = (CzSetting){.path = path,
+                             .place = &place,
+                             .put = {.kind = CZ_PUT_MARKER, .matches = &matches},
+                             .is_late = is_late};
     if (source != NULL)
         cz_problem_bind(trial, &trial->tree);
     if (reader->arena.out_of_memory)
@@ -115,13 +128,28 @@ static CzStatus find(const CzProblem *problem, CzProblem *trial, CzSetting *stan
     return CZ_STATUS_INPUT;
 }
 
-CzStatus cz_problem_find(const CzProblem *problem, const char *path, CzTargets *targets,
-                         CzError *error) {
+static CzStatus find_on_trial(const CzProblem *problem, const char *path, bool is_late,
+                              CzTargets *targets, CzError *error) {
     CzSetting *stand_ins = NULL;
     CzProblem *trial = cz_problem_create_again(problem, 1, &stand_ins);
     if (trial == NULL)
         return cz_no_memory(error, "the places of a path");
-    const CzStatus status = find(problem, trial, stand_ins, path, targets, error);
+    const CzStatus status = find(problem, trial, stand_ins, path, is_late, targets, error);
     cz_problem_free(trial);
     return status;
+}
+
+CzStatus cz_problem_find(const CzProblem *problem, const char *path, CzTargets *targets,
+                         CzError *error) {
+    return find_on_trial(problem, path, false, targets, error);
+}
+
+CzStatus cz_problem_find_changed(const CzProblem *problem, int scenario, const char *path,
+                                 CzTargets *targets, CzError *error) {
+    char text[CZ_PATH_ROOM];
+    const bool is_of_scenario = cz_change_path(path, scenario, text) == text;
+    if (is_of_scenario && cz_node_find(problem->tree.root, "scenarios") == NULL)
+        return CZ_OK; /* the trains as written have no key to be found */
+    return find_on_trial(problem, is_of_scenario ? text : path, cz_change_is_late(path), targets,
+                         error);
 }

@@ -120,6 +120,47 @@ CZ_MUST_CHECK CzStatus cz_problem_read_again(const CzProblem *problem, int n_mor
                                              const char *const *path, const char *const *value,
                                              CzProblem **again, CzError *error);
 
+/* The same for a path of a change of a scenario: outside of parts every vehicle of the trains has
+ * places of its own, also that of a copy. */
+CZ_MUST_CHECK CzStatus cz_problem_find_changed(const CzProblem *problem, int scenario,
+                                               const char *path, CzTargets *targets,
+                                               CzError *error);
+
+/* The problem with the values that a scenario changes: the problem itself where it changes none.
+ * Borrowed. */
+const CzProblem *cz_problem_in_scenario(const CzProblem *problem, int scenario);
+
+/* ---- changed values and further scenarios ---- */
+
+typedef enum CzCaseKind { CZ_CASE_VALUE, CZ_CASE_FACTOR, CZ_CASE_ADD } CzCaseKind;
+
+/* Kind and number of a change of a file. */
+CzCaseKind cz_change_kind(const CzChange *change, double *number);
+
+/* One changed value, as a scenario has it in a file. */
+typedef struct CzCaseChange {
+    const char *path;
+    CzCaseKind kind;
+    double number; /* value or sum in the unit of the path's key, or a factor */
+} CzCaseChange;
+
+/* A further scenario: a sample or a challenge. Texts and arrays are borrowed. */
+typedef struct CzCase {
+    const char *name; /* unlike that of any other scenario */
+    int scenario;     /* that it is like */
+    bool reserves;    /* whether design rules require their reserves */
+    int n_change;
+    const CzCaseChange *change; /* (n_change) */
+} CzCase;
+
+/* Reads the problem again with further scenarios behind its own, in the order of `cases` (n_case).
+ * Cases with equal changes should follow one another: they share their changed problem. Shares the
+ * problem's tree, so it must not outlive it; freed by the caller. May be called from several
+ * threads. Statuses: CZ_OK, CZ_STATUS_INPUT with the first mistake, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_problem_read_cases(const CzProblem *problem, int n_case,
+                                             const CzCase *cases, CzProblem **extended,
+                                             CzError *error);
+
 /* A measured time history, borrowed from the problem. */
 typedef struct CzMeasured {
     int n_point;

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "problem/acts.h"
-#include "problem/rules.h"
+#include "problem/changes.h"
 #include "problem/usual.h"
 #include "text/yaml.h"
 #include "tree/load.h"
@@ -35,6 +35,19 @@ static CzStatus begin(const CzProblemOptions *options, const char *file, CzProbl
     return CZ_OK;
 }
 
+/* Reads the problems of scenarios with changes, which shows what is wrong with the changes. */
+static void read_changes(const CzRules *rules, CzProblem *problem) {
+    CzError error = {0};
+    int failed = 0;
+    if (rules->mistakes->n_mistake > 0 || rules->reader->has_holes)
+        return;
+    const CzStatus status = cz_changes_read(problem, &failed, &error);
+    problem->reader.arena.out_of_memory |= status == CZ_STATUS_NO_MEMORY;
+    if (status == CZ_STATUS_INPUT)
+        cz_rule_broken(rules, &problem->input.scenarios[failed].changes, "%s" CZ_HELP "%s",
+                       error.message, error.help);
+}
+
 static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOptions *options) {
     CzReader *reader = &problem->reader;
     CzSource *first = reader->sources.first;
@@ -60,8 +73,10 @@ static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOpti
         return;
     cz_rules_check_design(&rules, problem->targets);
     cz_rules_check_fit(&rules);
+    cz_rules_check_uncertainty(&rules);
     cz_usual_check(&reader->warnings, &problem->places);
     cz_acts_check(problem);
+    read_changes(&rules, problem);
 }
 
 /* Sorts the mistakes and reports the first one. */

@@ -52,11 +52,23 @@ CzBinder cz_problem_binder(CzProblem *problem, const CzTree *tree) {
                       .tree = tree};
 }
 
+/* Several scenarios one behind the other may share a changed problem. */
+static void free_changed(CzProblem *problem) {
+    CzProblem *last = NULL;
+    for (int s = 0; problem->changed != NULL && s < problem->input.n_scenarios; s++)
+        if (problem->changed[s] != NULL && problem->changed[s] != last) {
+            last = problem->changed[s];
+            cz_problem_free(last);
+        }
+    free(problem->changed);
+}
+
 void cz_problem_free(CzProblem *problem) {
     if (problem == NULL)
         return;
     for (int i = 0; problem->targets != NULL && i < problem->input.optimise.n_variables; i++)
         free(problem->targets[i].target);
+    free_changed(problem);
     cz_places_free(&problem->places);
     cz_arena_free(&problem->reader.arena);
     free(problem);
@@ -103,6 +115,8 @@ void cz_problem_bind(CzProblem *problem, const CzTree *tree) {
     set.root = cz_trains_write_out(reader, &set);
     if (set.root != NULL)
         set.root = cz_families_write_out(reader, &set);
+    if (set.root != NULL)
+        cz_settings_apply_late(reader, &set, problem->setting, problem->n_setting);
     if (set.root == NULL || reader->arena.out_of_memory || !allocate_vehicles(problem, set.root))
         return;
     cz_bind_record(cz_problem_binder(problem, &set), reader->top, set.root, &cz_no_trail,

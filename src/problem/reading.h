@@ -26,6 +26,8 @@ struct CzProblem {
     CzProfile profile;
     CzMeasured *measured; /* one per match; NULL while they are not read */
     CzTargets *targets;   /* one per variable; NULL while they are not found */
+    CzProblem **changed;  /* those of scenarios with changes, some of them shared with the scenario
+                             before; NULL where there are none (n_scenarios) */
 };
 
 /* An empty problem; freed by cz_problem_free. NULL without memory. */
@@ -34,6 +36,10 @@ CzProblem *cz_problem_create(const char *share_folder);
 /* A problem to be reread from the tree of another, which it must not outlive, with space `*more`
  * for n_more settings after its own. NULL without memory. */
 CzProblem *cz_problem_create_again(const CzProblem *problem, int n_more, CzSetting **more);
+
+/* Copies targets of a problem to one that was read from the same trains; false without memory. */
+bool cz_targets_copy(const CzProblem *to, const CzProblem *from, const CzTargets *targets,
+                     CzTargets *copy);
 
 /* Context for reading the records of a tree. */
 CzBinder cz_problem_binder(CzProblem *problem, const CzTree *tree);

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "problem/rules.h"
+#include "problem/changes.h"
 
 /* Makes settings of further texts; false without memory. */
 static bool make_settings(CzReader *reader, int n, const char *const *path,
@@ -11,8 +11,8 @@ static bool make_settings(CzReader *reader, int n, const char *const *path,
     const CzNode place = {.source = source, .line = 1, .column = 1};
     for (int i = 0; source != NULL && i < n; i++) {
         setting[i].place = cz_node_text(&reader->arena, path[i], &place);
-        setting[i].value = cz_node_text(&reader->arena, value[i], &place);
-        if (setting[i].place == NULL || setting[i].value == NULL)
+        setting[i].put.value = cz_node_text(&reader->arena, value[i], &place);
+        if (setting[i].place == NULL || setting[i].put.value == NULL)
             return false;
         setting[i].path = setting[i].place->text;
     }
@@ -29,12 +29,10 @@ CzStatus cz_problem_read_again(const CzProblem *problem, int n_more, const char 
     CzReader *reader = &made->reader;
     if (make_settings(reader, n_more, path, value, more))
         cz_problem_bind(made, &made->tree);
-    const CzRules rules = cz_rules_of(made);
-    if (!reader->arena.out_of_memory)
-        cz_rules_check_collision(&rules);
-    cz_mistakes_finish(&reader->mistakes);
-    const CzStatus status =
-        cz_mistakes_status(&reader->mistakes, "the problem with other settings", error);
+    int failed = 0;
+    CzStatus status = cz_rules_check_again(made, error);
+    if (status == CZ_OK)
+        status = cz_changes_read(made, &failed, error);
     if (status != CZ_OK) {
         cz_problem_free(made);
         return status;

@@ -100,6 +100,15 @@ void cz_rules_check_collision(const CzRules *rules) {
     cz_rules_check_scenarios(rules);
 }
 
+CzStatus cz_rules_check_again(CzProblem *made, CzError *error) {
+    CzReader *reader = &made->reader;
+    const CzRules rules = cz_rules_of(made);
+    if (!reader->arena.out_of_memory)
+        cz_rules_check_collision(&rules);
+    cz_mistakes_finish(&reader->mistakes);
+    return cz_mistakes_status(&reader->mistakes, "the problem with other settings", error);
+}
+
 CzStatus cz_problem_check_vehicles(const CzProblem *problem, const CzVehicle *vehicles,
                                    CzError *error) {
     CzArena arena = {0};

@@ -53,7 +53,13 @@ void cz_rules_check_scenarios(const CzRules *rules);
 void cz_rules_check_design(const CzRules *rules, CzTargets *targets);
 void cz_rules_check_fit(const CzRules *rules);
 
-/* All rules except those on limits and variables. */
+void cz_rules_check_uncertainty(const CzRules *rules);
+
+/* All rules except those on limits, variables and uncertain numbers. */
 void cz_rules_check_collision(const CzRules *rules);
+
+/* The same for a problem that was bound again; returns its first mistake. Statuses: CZ_OK,
+ * CZ_STATUS_INPUT, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_rules_check_again(CzProblem *made, CzError *error);
 
 #endif

@@ -307,6 +307,18 @@ static void check_taken(const CzRules *rules, const CzTrain *train) {
             name_of(train->name));
 }
 
+static void check_changes(const CzRules *rules, const CzScenario *scenario) {
+    for (int i = 0; i < scenario->n_changes; i++) {
+        const CzChange *change = &scenario->changes[i];
+        const int n_kind = cz_rule_is_written(rules, &change->value) +
+                           cz_rule_is_written(rules, &change->factor) +
+                           cz_rule_is_written(rules, &change->add);
+        if (change->given && n_kind != 1)
+            cz_rule_broken(rules, change,
+                           "a change needs exactly one of 'value', 'factor' and 'add'");
+    }
+}
+
 void cz_rules_check_scenarios(const CzRules *rules) {
     const CzInput *input = rules->input;
     for (int i = 0; i < input->n_trains; i++)
@@ -314,6 +326,7 @@ void cz_rules_check_scenarios(const CzRules *rules) {
     for (int i = 0; i < input->n_scenarios; i++) {
         const CzScenario *scenario = &input->scenarios[i];
         const CzTrain *pair[2];
+        check_changes(rules, scenario);
         if (!scenario->given || !find_pair(rules, scenario, pair))
             continue;
         check_closing(rules, scenario, pair);

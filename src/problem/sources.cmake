@@ -4,6 +4,8 @@ set(CZ_SOURCES_problem
     reread.c
     bind.c
     bind_curve.c
+    cases.c
+    changes.c
     channel.c
     find.c
     keys.c
@@ -20,6 +22,7 @@ set(CZ_SOURCES_problem
     rules_fit.c
     rules_names.c
     rules_train.c
+    rules_uncertainty.c
     strokes.c
     trace.c
     usual.c

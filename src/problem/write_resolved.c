@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/number.h"
 #include "problem/acts.h"
+#include "problem/changes.h"
 
 enum { COMMENT_COLUMN = 44 };
 
@@ -258,6 +259,119 @@ static void write_variables(const Writer *writer, const CzVariable *variable, in
     }
 }
 
+/* ---- changes and uncertain numbers ----
+ *
+ * Paths through parts are replaced by the places in the vehicles, as those of variables are. One
+ * that cannot be replaced is written as it is, so that the file is refused and not read
+ * differently. */
+
+/* Writes the numbers and words of a record that are not texts. */
+static void write_rest(const Writer *writer, const CzRecord *record, const char *memory,
+                       int indent) {
+    for (int i = 0; i < record->n_key; i++)
+        if (record->key[i].kind != CZ_KEY_TEXT && record->key[i].kind != CZ_KEY_TEXTS)
+            write_value(writer, &record->key[i], memory + record->key[i].offset, indent, "");
+}
+
+static void write_change(const Writer *writer, int scenario, const CzChange *change, int indent) {
+    const CzRecord *record = &cz_records[CZ_RECORD_CzChange];
+    CzTargets targets = {0};
+    const bool is_replaced =
+        !cz_change_is_late(change->path) &&
+        cz_problem_find_changed(writer->problem, scenario, change->path, &targets, NULL) == CZ_OK;
+    for (int i = 0; i < targets.n; i++) {
+        write_key(writer, "path", "", indent, "- ");
+        fputc(' ', writer->stream);
+        write_target(writer, &targets.target[i]);
+        fputc('\n', writer->stream);
+        write_rest(writer, record, (const char *)change, indent);
+    }
+    if (!is_replaced)
+        write_record(writer, record, (const char *)change, indent, "- ");
+    free(targets.target);
+}
+
+/* Length of the name of a target's part, behind "parts."; 0 when its path begins otherwise. */
+static size_t part_length(const CzTarget *target) {
+    return cz_change_is_late(target->place) ? 0 : strcspn(target->place + 6, ".[");
+}
+
+static bool same_part(const CzTarget *a, const CzTarget *b) {
+    const size_t n = part_length(a);
+    return n == part_length(b) && strncmp(a->place + 6, b->place + 6, n) == 0;
+}
+
+/* Writes an uncertain number with the places of one part, `of`, or with all places when it is NULL.
+ */
+static void write_places(const Writer *writer, const CzScatter *scatter, const CzTargets *targets,
+                         const CzTarget *of, int indent) {
+    const char *before = "", *path = scatter->path != NULL ? scatter->path : scatter->paths.text[0];
+    char name[2 * CZ_PATH_ROOM];
+    snprintf(name, sizeof name, "%s%s%.*s", scatter->name != NULL ? scatter->name : path,
+             of != NULL ? " " : "", of != NULL ? (int)part_length(of) : 0,
+             of != NULL ? of->place + 6 : "");
+    write_key(writer, "name", "", indent, "- ");
+    fputc(' ', writer->stream);
+    write_text(writer->stream, name);
+    fputc('\n', writer->stream);
+    write_key(writer, "paths", "", indent, "");
+    fputs(" [", writer->stream);
+    for (int i = 0; i < targets->n; i++) {
+        if (of != NULL && !same_part(&targets->target[i], of))
+            continue;
+        fputs(before, writer->stream);
+        write_target(writer, &targets->target[i]);
+        before = ", ";
+    }
+    fputs("]\n", writer->stream);
+    CzScatter rest = *scatter;
+    rest.group = scatter->group == CZ_GROUP_PART ? CZ_GROUP_ALL : scatter->group;
+    write_rest(writer, &cz_records[CZ_RECORD_CzScatter], (const char *)&rest, indent);
+    for (int i = 0; i < cz_records[CZ_RECORD_CzScatter].n_key; i++)
+        if (scatter->values.n_text > 0 &&
+            cz_records[CZ_RECORD_CzScatter].key[i].offset == offsetof(CzScatter, values))
+            write_texts(writer, &cz_records[CZ_RECORD_CzScatter].key[i], &scatter->values, indent);
+}
+
+static void write_scatter(const Writer *writer, const CzScatter *scatter, int indent) {
+    const CzTexts single = {1, &scatter->path};
+    const CzTexts *paths = scatter->path != NULL ? &single : &scatter->paths;
+    CzTargets targets = {0};
+    bool has_parts = false;
+    CzStatus status = CZ_OK;
+    for (int i = 0; i < paths->n_text; i++)
+        has_parts |= !cz_change_is_late(paths->text[i]);
+    for (int i = 0; i < paths->n_text && has_parts && status == CZ_OK; i++)
+        status = cz_problem_find_changed(writer->problem, 0, paths->text[i], &targets, NULL);
+    if (!has_parts || status != CZ_OK)
+        write_record(writer, &cz_records[CZ_RECORD_CzScatter], (const char *)scatter, indent, "- ");
+    else if (scatter->group != CZ_GROUP_PART)
+        write_places(writer, scatter, &targets, NULL, indent);
+    for (int i = 0; i < targets.n && status == CZ_OK && scatter->group == CZ_GROUP_PART; i++) {
+        bool is_first = true;
+        for (int k = 0; k < i; k++)
+            is_first &= !same_part(&targets.target[k], &targets.target[i]);
+        if (is_first)
+            write_places(writer, scatter, &targets, &targets.target[i], indent);
+    }
+    free(targets.target);
+}
+
+/* One record of a list; `memory` is the record around it. */
+static void write_item(const Writer *writer, const CzRecord *record, const char *memory,
+                       const char *item, int indent) {
+    const void *address = item, *around = memory;
+    const CzScenario *scenario = around;
+    if (record == &cz_records[CZ_RECORD_CzVariable])
+        write_variables(writer, address, indent);
+    else if (record == &cz_records[CZ_RECORD_CzChange])
+        write_change(writer, (int)(scenario - writer->problem->input.scenarios), address, indent);
+    else if (record == &cz_records[CZ_RECORD_CzScatter])
+        write_scatter(writer, address, indent);
+    else
+        write_record(writer, record, item, indent, "- ");
+}
+
 /* Records of a list: stages by value, others by pointer. */
 static void write_list(const Writer *writer, const CzKey *key, const char *memory, int indent) {
     const CzRecord *record = key->child;
@@ -267,10 +381,8 @@ static void write_list(const Writer *writer, const CzKey *key, const char *memor
         item = *(const char *const *)(const void *)item;
     const int column = write_key(writer, key->stem, "", indent, "");
     write_origin(writer, key, memory + key->offset, column);
-    for (int i = 0; i < n_item && key->child == &cz_records[CZ_RECORD_CzVariable]; i++)
-        write_variables(writer, (const CzVariable *)(const void *)item + i, indent + 4);
-    for (int i = 0; i < n_item && key->child != &cz_records[CZ_RECORD_CzVariable]; i++)
-        write_record(writer, record, item + (size_t)i * record->size, indent + 4, "- ");
+    for (int i = 0; i < n_item; i++, item += record->size)
+        write_item(writer, record, memory, item, indent + 4);
 }
 
 /* Whether all variables are choices of parts, so that none remains here. */

@@ -35,20 +35,25 @@ const CzUnit *cz_unit_find(CzDimension dimension, const char *suffix) {
     return unit;
 }
 
-/* Whether a text is the suffix of any unit. */
-static bool is_suffix(const char *text) {
+/* The first unit with a suffix, in any dimension; NULL when there is none. */
+static const CzUnit *unit_with(const char *suffix) {
     for (int i = 0; i < cz_n_unit; i++)
-        if (cz_units[i].suffix[0] != '\0' && strcmp(cz_units[i].suffix, text) == 0)
-            return true;
-    return false;
+        if (cz_units[i].suffix[0] != '\0' && strcmp(cz_units[i].suffix, suffix) == 0)
+            return &cz_units[i];
+    return NULL;
 }
 
 size_t cz_key_stem_length(const char *key) {
     const size_t n = strlen(key);
     for (const char *at = strchr(key, '_'); at != NULL; at = strchr(at + 1, '_'))
-        if (at > key && is_suffix(at + 1))
+        if (at > key && unit_with(at + 1) != NULL)
             return (size_t)(at - key); /* the first match is the longest suffix */
     return n;
+}
+
+double cz_key_unit_si(const char *key) {
+    const char *end = key + cz_key_stem_length(key);
+    return end[0] == '_' ? unit_with(end + 1)->si : 1;
 }
 
 bool cz_key_same_stem(const char *a, const char *b) {

@@ -31,6 +31,8 @@ const CzUnit *cz_unit_next(const CzUnit *unit);
 const CzUnit *cz_unit_find(CzDimension dimension, const char *suffix);
 /* Length of a key without the longest unit suffix at its end [byte]. */
 size_t cz_key_stem_length(const char *key);
+/* SI value of one unit of a key, which is that at its end; 1 when there is none. */
+double cz_key_unit_si(const char *key);
 /* Whether two keys have the same stem, in whatever units. */
 bool cz_key_same_stem(const char *a, const char *b);
 /* Writes the spellings of a stem: "stroke_m or stroke_mm". */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "base/suggest.h"
 #include "base/text.h"
 #include "text/range.h"
 #include "tree/merge.h"
@@ -172,11 +173,48 @@ static bool may_add(Scenarios *scenarios, int n, const CzNode *place) {
     return !scenarios->is_full;
 }
 
+/* The earlier scenario that one is like; NULL, with a mistake, when there is none. */
+static const CzNode *find_like(const Scenarios *scenarios, const CzNode *like) {
+    CzReader *reader = scenarios->reader;
+    const char *name = cz_value_text(cz_reader_value(reader, "like", like, NULL));
+    CzSuggestion suggestion = {0};
+    for (int i = 0; name != NULL && i < scenarios->n; i++) {
+        const char *known = cz_node_find_text(scenarios->entry[i].value, "name");
+        if (known != NULL && strcmp(known, name) == 0)
+            return scenarios->entry[i].value;
+        if (known != NULL)
+            cz_suggest(&suggestion, name, known);
+    }
+    if (name != NULL) {
+        cz_mistake(&reader->mistakes, like, NULL, "there is no earlier scenario '%.48s'", name);
+        cz_mistake_suggest(&reader->mistakes, &suggestion);
+    }
+    return NULL;
+}
+
+/* A scenario with the values of the one that it is like, where it has none of its own; NULL without
+ * memory. */
+static const CzNode *take_like(const Scenarios *scenarios, const CzNode *scenario) {
+    const CzEntry *like = cz_node_find(scenario, "like");
+    const CzNode *base = like != NULL ? find_like(scenarios, like->value) : NULL;
+    if (base == NULL)
+        return scenario;
+    CzNode *whole = cz_node_copy(&scenarios->reader->arena, scenario, base->n_entry);
+    for (int i = 0; whole != NULL && i < base->n_entry; i++) {
+        const char *key = base->entry[i].key->text;
+        if (!cz_text_is_word(key, "name family like") && cz_find_same_stem(whole, key) == NULL)
+            whole->entry[whole->n_entry++] = base->entry[i];
+    }
+    return whole;
+}
+
 /* Appends the members of a scenario, or the scenario itself when it has no sweep that can be
  * written out. */
 static bool append_scenario(Scenarios *scenarios, const CzEntry *entry) {
     CzReader *reader = scenarios->reader;
     const CzNode *scenario = cz_take_part(reader, scenarios->tree, entry->value, entry->trail);
+    if (scenario != NULL && scenario->kind == CZ_NODE_MAPPING)
+        scenario = take_like(scenarios, scenario);
     if (scenario == NULL)
         return false;
     Family family = {.reader = reader, .node = scenario, .sweep = cz_node_find(scenario, "sweep")};
@@ -197,6 +235,8 @@ static bool append_scenario(Scenarios *scenarios, const CzEntry *entry) {
             item->value = member_node(&family, name, i);
         else if (family.sweep != NULL) /* its mistake was reported */
             item->value = cz_node_without(&reader->arena, scenario, "sweep", 0);
+        else
+            item->value = scenario;
         if (item->value == NULL)
             return false;
     }

@@ -5,33 +5,26 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "base/suggest.h"
 #include "base/text.h"
 #include "tree/merge.h"
+#include "tree/segments.h"
 #include "tree/trains.h"
 
-enum { MOST_SEGMENTS = 24, LONGEST_NAME = CZ_LABEL_ROOM, MOST_MATCHES = 10000, MOST_SET = 20000 };
-
-typedef enum { SEGMENT_NAME, SEGMENT_INDEX, SEGMENT_ALL } SegmentKind;
-
-typedef struct {
-    SegmentKind kind;
-    char name[LONGEST_NAME];
-    int index;
-    int offset; /* in the path [byte] */
-} Segment;
+enum { LONGEST_NAME = CZ_LABEL_ROOM, MOST_MATCHES = 10000, MOST_SET = 20000 };
 
 typedef struct {
     CzReader *reader;
     const CzTree *tree;
     int n_segment;
-    Segment segment[MOST_SEGMENTS];
+    CzSegment segment[CZ_MOST_SEGMENTS];
     const CzNode *place; /* of the path */
-    const CzNode *value;
-    CzMatches *matches;
+    const CzPut *put;
     int n_found;
     bool failed;
     const char *train;     /* name of the train in the path, for its vehicles */
+    const char *part;      /* the present one of all parts; NULL when the path does not name all */
     char at[CZ_PATH_ROOM]; /* concrete path so far */
 } Walk;
 
@@ -43,38 +36,6 @@ typedef struct {
     bool is_open; /* beyond a * */
 } Step;
 
-/* ---- reading a path ---- */
-
-static bool is_end(char c) {
-    return c == '\0' || c == '.' || c == '[' || c == ']';
-}
-
-/* Reads one segment; returns the rest of the path, NULL when it is not a segment. */
-static const char *read_segment(Segment *segment, const char *path, const char *start) {
-    segment->offset = (int)(path - start);
-    if (strncmp(path, "[*]", 3) == 0) {
-        segment->kind = SEGMENT_ALL;
-        return path + 3;
-    }
-    if (*path == '[') {
-        int n_read = 0;
-        segment->kind = SEGMENT_INDEX;
-        if (path[1] < '0' || path[1] > '9' ||
-            sscanf(path, "[%5d]%n", &segment->index, &n_read) != 1 || n_read == 0)
-            return NULL;
-        return path + n_read;
-    }
-    size_t n = 0;
-    while (!is_end(path[n]))
-        n++;
-    if (n == 0 || n >= LONGEST_NAME)
-        return NULL;
-    memcpy(segment->name, path, n);
-    segment->name[n] = '\0';
-    segment->kind = strcmp(segment->name, "*") == 0 ? SEGMENT_ALL : SEGMENT_NAME;
-    return path + n;
-}
-
 /* A node at the place of a segment, for mistakes. */
 static CzNode place_of(const Walk *walk, int level) {
     CzNode place = *walk->place;
@@ -84,15 +45,8 @@ static CzNode place_of(const Walk *walk, int level) {
 }
 
 static bool read_path(Walk *walk, const char *path) {
-    const char *at = *path != '\0' ? path : NULL;
-    while (at != NULL && *at != '\0') {
-        const bool is_first = walk->n_segment == 0, is_point = *at == '.' && !is_first;
-        const bool is_segment =
-            (is_first || is_point || *at == '[') && walk->n_segment < MOST_SEGMENTS;
-        at = is_segment ? read_segment(&walk->segment[walk->n_segment++], at + is_point, path)
-                        : NULL;
-    }
-    if (at != NULL)
+    walk->n_segment = cz_segments_read(path, walk->segment);
+    if (walk->n_segment > 0)
         return true;
     cz_mistake(&walk->reader->mistakes, walk->place, NULL,
                "'%s' is not a path" CZ_HELP
@@ -137,39 +91,86 @@ static size_t enter(Walk *walk, const char *name, int index) {
     return before;
 }
 
-/* The value to set: the setting's own, or a stand-in for a number. */
-static const CzNode *value_to_put(Walk *walk) {
-    CzMatches *matches = walk->matches;
+/* Notes one more place that is set; false when there are too many. */
+static bool may_put(Walk *walk) {
     walk->n_found++;
-    if (matches == NULL) {
-        if (++walk->reader->n_set == MOST_SET)
-            cz_mistake(&walk->reader->mistakes, walk->place, NULL,
-                       "the settings change more than %d values", (int)MOST_SET);
-        walk->failed |= walk->reader->n_set >= MOST_SET;
-        return walk->value;
-    }
+    if (++walk->reader->n_set == MOST_SET)
+        cz_mistake(&walk->reader->mistakes, walk->place, NULL,
+                   "the settings change more than %d values", (int)MOST_SET);
+    walk->failed |= walk->reader->n_set >= MOST_SET;
+    return !walk->failed;
+}
+
+/* A text node with a number at the place of the path's last segment. */
+static CzNode *number_node(Walk *walk, const char *text) {
+    CzNode *node = cz_arena_allocate(&walk->reader->arena, 1, sizeof *node);
+    if (node == NULL)
+        return NULL;
+    *node = place_of(walk, walk->n_segment - 1);
+    node->kind = CZ_NODE_TEXT;
+    node->text = text;
+    node->quoted = false;
+    return node;
+}
+
+/* A stand-in for the number at the present place, which is added to the matches. */
+static const CzNode *marker_at(Walk *walk) {
+    CzMatches *matches = walk->put->matches;
+    walk->n_found++;
     if (matches->n_match == MOST_MATCHES) {
         if (!walk->failed)
             cz_mistake(&walk->reader->mistakes, walk->place, NULL,
                        "the path names more than %d places", (int)MOST_MATCHES);
         walk->failed = true;
-        return walk->value;
     }
     char(*places)[CZ_PATH_ROOM] = cz_arena_grow(&walk->reader->arena, matches->place,
                                                 matches->n_match, sizeof *matches->place);
-    if (places == NULL)
+    CzNode *marker = number_node(walk, "0");
+    if (places == NULL || marker == NULL)
         return NULL;
     matches->place = places;
-    CzNode *marker = cz_arena_allocate(&walk->reader->arena, 1, sizeof *marker);
-    if (marker == NULL)
-        return NULL;
-    *marker = place_of(walk, walk->n_segment - 1);
-    marker->kind = CZ_NODE_TEXT;
-    marker->text = "0";
-    marker->quoted = false;
+    if (walk->failed)
+        return marker;
     memcpy(matches->place[matches->n_match], walk->at, CZ_PATH_ROOM);
     marker->match = ++matches->n_match;
     return marker;
+}
+
+/* The value of the setting, or a stand-in. */
+static const CzNode *value_to_put(Walk *walk) {
+    if (walk->put->kind == CZ_PUT_MARKER)
+        return marker_at(walk);
+    may_put(walk);
+    return walk->put->value;
+}
+
+/* The number at an entry, changed by the factor or sum; the entry's key keeps its unit. */
+static const CzNode *changed_number(Walk *walk, const char *named, const CzEntry *there) {
+    const CzPut *put = walk->put;
+    const CzNode *node = there->value;
+    const bool is_bare = node->kind == CZ_NODE_TEXT && !node->quoted;
+    double number;
+    if (is_bare && node->match > 0)
+        return node;
+    const char *wrong = is_bare ? cz_number_parse(node->text, &number) : "is not a number";
+    if (wrong != NULL) {
+        refuse(walk, walk->n_segment - 1, "%s cannot be changed by a %s: it %s", walk->at,
+               put->kind == CZ_PUT_FACTOR ? "factor" : "sum", wrong);
+        return node;
+    }
+    if (put->kind == CZ_PUT_FACTOR)
+        number *= put->number;
+    else if (strcmp(named, there->key->text) == 0)
+        number += put->number;
+    else
+        number += put->number * cz_key_unit_si(named) / cz_key_unit_si(there->key->text);
+    char text[CZ_NUMBER_TEXT];
+    cz_number_print(text, number);
+    return number_node(walk, cz_arena_copy_text(&walk->reader->arena, text, strlen(text)));
+}
+
+static bool is_change(const Walk *walk) {
+    return walk->put->kind == CZ_PUT_FACTOR || walk->put->kind == CZ_PUT_SUM;
 }
 
 /* Whether the path ends in the `use` of a record that has one: the setting then replaces the part
@@ -178,10 +179,25 @@ static const CzNode *value_to_put(Walk *walk) {
 static bool sets_part(const Walk *walk, const CzNode *node, Step step) {
     return step.level == walk->n_segment - 1 &&
            strcmp(walk->segment[step.level].name, "use") == 0 &&
-           walk->segment[step.level].kind == SEGMENT_NAME && cz_node_find(node, "use") != NULL;
+           walk->segment[step.level].kind == CZ_SEGMENT_NAME && cz_node_find(node, "use") != NULL;
 }
 
-/* Sets the value at the path's last key. */
+/* Whether a place is left out: beyond a * among the parts where the key is not written or belongs
+ * to a part that this one uses, beyond any other * where there is no number to change. */
+static bool is_left_out(Walk *walk, const CzEntry *there, Step step) {
+    if (walk->part != NULL) {
+        const char *part = there != NULL ? cz_entry_trail(there, step.trail)->part : NULL;
+        return part == NULL || strcmp(part, walk->part) != 0;
+    }
+    if (there != NULL || !is_change(walk))
+        return false;
+    if (!step.is_open)
+        refuse(walk, step.level, "%s has no '%s' that a %s could change", here(walk),
+               walk->segment[step.level].name, walk->put->kind == CZ_PUT_FACTOR ? "factor" : "sum");
+    return true;
+}
+
+/* Puts something at the path's last key. */
 static const CzNode *put_value(Walk *walk, const CzNode *mapping, Step step) {
     const char *name = walk->segment[step.level].name;
     const CzNode place = place_of(walk, step.level);
@@ -190,15 +206,20 @@ static const CzNode *put_value(Walk *walk, const CzNode *mapping, Step step) {
         refuse(walk, step.level, "'%s' cannot be set by a path", name);
         return mapping;
     }
-    const size_t before = enter(walk, name, 0);
     CzNode *changed = cz_node_copy(&walk->reader->arena, mapping, 1);
-    const CzEntry entry = {cz_node_text(&walk->reader->arena, name, &place), value_to_put(walk),
-                           &cz_no_trail};
+    CzEntry *there = changed != NULL ? cz_find_same_stem(changed, name) : NULL;
+    if (changed == NULL || is_left_out(walk, there, step))
+        return changed != NULL ? mapping : NULL;
+    const size_t before = enter(walk, name, 0);
+    CzEntry entry = {cz_node_text(&walk->reader->arena, name, &place), NULL, &cz_no_trail};
+    if (is_change(walk) && may_put(walk))
+        entry = (CzEntry){there->key, changed_number(walk, name, there), there->trail};
+    else
+        entry.value = value_to_put(walk);
     walk->at[before] = '\0';
-    if (changed == NULL || entry.key == NULL || entry.value == NULL)
+    if (entry.key == NULL || entry.value == NULL)
         return NULL;
-    CzEntry *like = cz_find_same_stem(changed, name);
-    *(like != NULL ? like : &changed->entry[changed->n_entry++]) = entry;
+    *(there != NULL ? there : &changed->entry[changed->n_entry++]) = entry;
     return changed;
 }
 
@@ -241,8 +262,8 @@ static bool is_copied(Walk *walk, const CzNode *mapping, Step step) {
 }
 
 static const CzNode *walk_mapping(Walk *walk, const CzNode *mapping, Step step) {
-    const Segment *segment = &walk->segment[step.level];
-    if (segment->kind != SEGMENT_NAME) {
+    const CzSegment *segment = &walk->segment[step.level];
+    if (segment->kind != CZ_SEGMENT_NAME) {
         refuse(walk, step.level, "%s is not a list: a key must follow", here(walk));
         return mapping;
     }
@@ -256,7 +277,7 @@ static const CzNode *walk_mapping(Walk *walk, const CzNode *mapping, Step step) 
     const bool is_new = entry == NULL;
     if (is_new && step.is_open)
         return mapping;
-    if (is_new && (walk->matches != NULL || key == NULL || key->kind != CZ_KEY_CHILD ||
+    if (is_new && (walk->put->kind != CZ_PUT_VALUE || key == NULL || key->kind != CZ_KEY_CHILD ||
                    !needs_nothing(inside))) {
         report_unknown(walk, mapping, step);
         return mapping;
@@ -296,8 +317,8 @@ static const char *name_of_item(Walk *walk, const CzNode *item, const CzRecord *
 }
 
 static void report_no_item(Walk *walk, const CzNode *list, Step step) {
-    const Segment *segment = &walk->segment[step.level];
-    if (segment->kind == SEGMENT_INDEX) {
+    const CzSegment *segment = &walk->segment[step.level];
+    if (segment->kind == CZ_SEGMENT_INDEX) {
         refuse(walk, step.level, "%s has %d items, counted from 0; there is no [%d]", walk->at,
                list->n_entry, segment->index);
         return;
@@ -333,16 +354,16 @@ static const CzNode *walk_item(Walk *walk, const CzNode *item, Step step) {
         step.level++;
         return walk_on(walk, item, step);
     }
-    if (item->kind == CZ_NODE_TEXT)
+    if (item->kind == CZ_NODE_TEXT && !is_change(walk))
         return value_to_put(walk);
     refuse(walk, step.level, "%s is %s: a key must follow", walk->at, cz_node_what(item));
     return item;
 }
 
 static const CzNode *walk_list(Walk *walk, const CzNode *list, Step step) {
-    const Segment *segment = &walk->segment[step.level];
+    const CzSegment *segment = &walk->segment[step.level];
     CzNode *changed = cz_node_copy(&walk->reader->arena, list, 0);
-    bool is_found = segment->kind == SEGMENT_ALL;
+    bool is_found = segment->kind == CZ_SEGMENT_ALL;
     for (int i = 0, position = 1; changed != NULL && i < list->n_entry; i++) {
         char text[LONGEST_NAME];
         const CzTrail *trail = cz_entry_trail(&list->entry[i], step.trail);
@@ -351,14 +372,14 @@ static const CzNode *walk_list(Walk *walk, const CzNode *list, Step step) {
             return NULL;
         const char *name = name_of_item(walk, item, step.record, position, text, sizeof text);
         position += is_record(step.record, "vehicle") ? cz_vehicle_repeat(item) : 1;
-        if (segment->kind == SEGMENT_NAME && (name == NULL || strcmp(name, segment->name) != 0))
+        if (segment->kind == CZ_SEGMENT_NAME && (name == NULL || strcmp(name, segment->name) != 0))
             continue;
-        if (segment->kind == SEGMENT_INDEX && segment->index != i)
+        if (segment->kind == CZ_SEGMENT_INDEX && segment->index != i)
             continue;
         is_found = true;
         const size_t before = enter(walk, name, i);
         const Step next = {step.record, trail, step.level,
-                           step.is_open || segment->kind == SEGMENT_ALL};
+                           step.is_open || segment->kind == CZ_SEGMENT_ALL};
         changed->entry[i].value = walk_item(walk, item, next);
         walk->at[before] = '\0';
         if (changed->entry[i].value == NULL)
@@ -385,21 +406,39 @@ static const CzNode *walk_on(Walk *walk, const CzNode *node, Step step) {
 
 /* ---- the top ---- */
 
-static bool put_into_part(Walk *walk, CzTree *tree) {
-    const Segment *segment = &walk->segment[1];
-    const bool names = walk->n_segment > 2 && segment->kind == SEGMENT_NAME;
-    CzPart *part = names ? cz_tree_part(tree, segment->name, strlen(segment->name)) : NULL;
-    if (part != NULL) {
-        CzTrail *trail = cz_arena_allocate(&walk->reader->arena, 1, sizeof *trail);
-        if (trail == NULL)
+/* Continues in one part. */
+static bool walk_part(Walk *walk, CzPart *part, bool is_open) {
+    CzTrail *trail = cz_arena_allocate(&walk->reader->arena, 1, sizeof *trail);
+    if (trail == NULL)
+        return false;
+    *trail = (CzTrail){part->name, part->written, NULL, &cz_no_trail};
+    snprintf(walk->at, sizeof walk->at, "parts.%s", part->name);
+    const CzNode *changed = walk_on(walk, part->node, (Step){NULL, trail, 2, is_open});
+    if (changed != NULL)
+        part->node = changed;
+    return changed != NULL;
+}
+
+/* Continues in all parts of a depth. */
+static bool walk_parts(Walk *walk, CzTree *tree, int depth) {
+    for (int i = 0; i < tree->n_part && !walk->failed; i++) {
+        CzPart *part = &tree->part[i];
+        walk->part = part->name;
+        if (part->depth == depth && part->node->kind == CZ_NODE_MAPPING &&
+            !walk_part(walk, part, true))
             return false;
-        *trail = (CzTrail){part->name, part->written, NULL, &cz_no_trail};
-        snprintf(walk->at, sizeof walk->at, "parts.%s", part->name);
-        const CzNode *changed = walk_on(walk, part->node, (Step){NULL, trail, 2, false});
-        if (changed != NULL)
-            part->node = changed;
-        return changed != NULL;
     }
+    return true;
+}
+
+static bool put_into_parts(Walk *walk, CzTree *tree, int depth) {
+    const CzSegment *segment = &walk->segment[1];
+    if (walk->n_segment > 2 && segment->kind == CZ_SEGMENT_ALL)
+        return walk_parts(walk, tree, depth);
+    const bool names = walk->n_segment > 2 && segment->kind == CZ_SEGMENT_NAME;
+    CzPart *part = names ? cz_tree_part(tree, segment->name, strlen(segment->name)) : NULL;
+    if (part != NULL)
+        return walk_part(walk, part, false);
     CzSuggestion suggestion = {0};
     for (int i = 0; names && i < tree->n_part; i++)
         cz_suggest(&suggestion, segment->name, tree->part[i].name);
@@ -415,22 +454,19 @@ static bool put_into_part(Walk *walk, CzTree *tree) {
     return true;
 }
 
-bool cz_path_put(CzReader *reader, CzTree *tree, const char *path, const CzNode *place,
-                 const CzNode *value, CzMatches *matches) {
-    Walk walk = {
-        .reader = reader, .tree = tree, .place = place, .value = value, .matches = matches};
+int cz_path_put(CzReader *reader, CzTree *tree, const char *path, const CzNode *place,
+                const CzPut *put, int depth) {
+    Walk walk = {.reader = reader, .tree = tree, .place = place, .put = put};
     if (!read_path(&walk, path))
-        return false;
+        return -1;
     bool has_memory;
-    if (walk.segment[0].kind == SEGMENT_NAME && strcmp(walk.segment[0].name, "parts") == 0) {
-        has_memory = put_into_part(&walk, tree);
+    if (walk.segment[0].kind == CZ_SEGMENT_NAME && strcmp(walk.segment[0].name, "parts") == 0) {
+        has_memory = put_into_parts(&walk, tree, depth);
     } else {
         const Step top = {reader->top, &cz_no_trail, 0, false};
         const CzNode *root = walk_on(&walk, tree->root, top);
         has_memory = root != NULL;
         tree->root = has_memory ? root : tree->root;
     }
-    if (!walk.failed && has_memory && walk.n_found == 0)
-        cz_mistake(&reader->mistakes, place, NULL, "'%s' names no place of this problem", path);
-    return has_memory && !walk.failed && walk.n_found > 0;
+    return has_memory && !walk.failed ? walk.n_found : -1;
 }

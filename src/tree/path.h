@@ -17,9 +17,25 @@ typedef struct CzMatches {
     char (*place)[CZ_PATH_ROOM]; /* (n_match) */
 } CzMatches;
 
-/* Sets a value at a path, which may name several places; with `matches` each place receives its own
- * stand-in for a number (problem/find.c). False, with a mistake, when the path names none. */
-bool cz_path_put(CzReader *reader, CzTree *tree, const char *path, const CzNode *place,
-                 const CzNode *value, CzMatches *matches);
+/* What is put at a place: one of these. */
+typedef enum CzPutKind {
+    CZ_PUT_VALUE,  /* `value` */
+    CZ_PUT_FACTOR, /* the number there times `number` */
+    CZ_PUT_SUM,    /* the number there plus `number`, which is in the unit of the path's key */
+    CZ_PUT_MARKER  /* a stand-in for a number (problem/find.c); `matches` receives the place */
+} CzPutKind;
+
+typedef struct CzPut {
+    CzPutKind kind;
+    const CzNode *value;
+    double number;
+    CzMatches *matches;
+} CzPut;
+
+/* Puts something at a path, which may name several places, and returns their number; -1 after a
+ * mistake or without memory. A path that begins with `parts.*` names every part in which the rest
+ * is written, here those of this nesting depth. */
+int cz_path_put(CzReader *reader, CzTree *tree, const char *path, const CzNode *place,
+                const CzPut *put, int depth);
 
 #endif

@@ -56,8 +56,8 @@ static bool read_setting(CzReader *reader, const CzSource *source, int line, CzS
     setting->path = cz_arena_copy_text(&reader->arena, text, (size_t)(equals - text));
     if (setting->path != NULL)
         setting->place = cz_node_text(&reader->arena, setting->path, &place);
-    setting->value = value_of(reader, equals + 1, &value_place);
-    return setting->path != NULL && setting->place != NULL && setting->value != NULL;
+    setting->put.value = value_of(reader, equals + 1, &value_place);
+    return setting->path != NULL && setting->place != NULL && setting->put.value != NULL;
 }
 
 static int gather_options(CzReader *reader, int n_set, const char *const *set, CzSetting *setting) {
@@ -106,7 +106,8 @@ const CzSetting *cz_settings_gather(CzReader *reader, const CzNode *root, int n_
         const CzEntry *entry = &own->value->entry[i];
         refuse_twice(reader, own->value, i);
         if (entry->value->kind == CZ_NODE_TEXT)
-            setting[(*n_setting)++] = (CzSetting){entry->key->text, entry->key, entry->value, NULL};
+            setting[(*n_setting)++] =
+                (CzSetting){entry->key->text, entry->key, {.value = entry->value}, false};
         else
             cz_mistake(&reader->mistakes, entry->value, NULL,
                        "'%s' is set to %s; it needs one value", entry->key->text,
@@ -119,17 +120,45 @@ const CzSetting *cz_settings_gather(CzReader *reader, const CzNode *root, int n_
 
 /* ---- their order ---- */
 
-enum { LAST_RANK = 48 };
+enum { LAST_RANK = 48, EVERY_RANK = -1 };
 
 /* Rank by which a setting is applied: 0 for parts without nested parts, higher with the nesting
- * depth of a part, LAST_RANK outside of parts. */
+ * depth of a part, LAST_RANK outside of parts; a setting of all parts is applied with each. */
 static int rank_of(const CzTree *tree, const char *path) {
     if (strncmp(path, "parts.", 6) != 0)
         return LAST_RANK;
     const char *name = path + 6;
+    if (strncmp(name, "*.", 2) == 0)
+        return EVERY_RANK;
     const CzPart *part = cz_tree_part(tree, name, strcspn(name, ".["));
     const int depth = part != NULL ? part->depth : 0;
     return depth < LAST_RANK ? depth : LAST_RANK - 1;
+}
+
+static void tell_nothing(CzReader *reader, const CzSetting *setting) {
+    cz_mistake(&reader->mistakes, setting->place, NULL, "'%s' names no place of this problem",
+               setting->path);
+}
+
+/* Applies the settings to a tree with parts of its own; `rank` and `n_put` are scratch
+ * (n_setting). */
+static void apply(CzReader *reader, CzTree *tree, const CzSetting *setting, int n_setting,
+                  int *rank, int *n_put) {
+    for (int i = 0; i < n_setting; i++) {
+        rank[i] = setting[i].is_late ? LAST_RANK + 1 : rank_of(tree, setting[i].path);
+        n_put[i] = 0;
+    }
+    for (int at = 0; at <= LAST_RANK; at++)
+        for (int i = 0; i < n_setting; i++) {
+            if (rank[i] != at && (rank[i] != EVERY_RANK || n_put[i] < 0))
+                continue;
+            const int n =
+                cz_path_put(reader, tree, setting[i].path, setting[i].place, &setting[i].put, at);
+            n_put[i] = n < 0 ? n : n_put[i] + n;
+        }
+    for (int i = 0; i < n_setting; i++)
+        if (n_put[i] == 0 && !setting[i].is_late)
+            tell_nothing(reader, &setting[i]);
 }
 
 CzTree cz_settings_apply(CzReader *reader, const CzTree *tree, const CzSetting *setting,
@@ -142,15 +171,17 @@ CzTree cz_settings_apply(CzReader *reader, const CzTree *tree, const CzSetting *
         return *tree;
     if (tree->n_part > 0)
         memcpy(changed.part, tree->part, (size_t)tree->n_part * sizeof *changed.part);
-    int *own = cz_arena_allocate(&reader->arena, (size_t)n_setting, sizeof *own);
-    if (own == NULL)
+    int *scratch = cz_arena_allocate(&reader->arena, 2 * (size_t)n_setting, sizeof *scratch);
+    if (scratch == NULL)
         return *tree;
-    for (int i = 0; i < n_setting; i++)
-        own[i] = rank_of(tree, setting[i].path);
-    for (int rank = 0; rank <= LAST_RANK; rank++)
-        for (int i = 0; i < n_setting; i++)
-            if (own[i] == rank)
-                cz_path_put(reader, &changed, setting[i].path, setting[i].place, setting[i].value,
-                            setting[i].matches);
+    apply(reader, &changed, setting, n_setting, scratch, scratch + n_setting);
     return changed;
+}
+
+void cz_settings_apply_late(CzReader *reader, CzTree *tree, const CzSetting *setting,
+                            int n_setting) {
+    for (int i = 0; i < n_setting; i++)
+        if (setting[i].is_late &&
+            cz_path_put(reader, tree, setting[i].path, setting[i].place, &setting[i].put, 0) == 0)
+            tell_nothing(reader, &setting[i]);
 }

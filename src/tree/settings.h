@@ -13,17 +13,20 @@
 typedef struct CzSetting {
     const char *path;
     const CzNode *place; /* of the path */
-    const CzNode *value;
-    CzMatches *matches; /* receives the places of stand-ins that are set instead of the value; NULL:
-                           the value is set */
+    CzPut put;
+    bool is_late; /* applied when the trains have been written out */
 } CzSetting;
 
 /* Settings of the file's `set:`, then those of the command line, "path=value" (n_set). */
 const CzSetting *cz_settings_gather(CzReader *reader, const CzNode *root, int n_set,
                                     const char *const *set, int *n_setting);
 
-/* The tree with all settings applied. */
+/* The tree with all settings applied, except those that are late. */
 CzTree cz_settings_apply(CzReader *reader, const CzTree *tree, const CzSetting *setting,
                          int n_setting);
+
+/* Applies the late ones in their order to a tree whose trains have been written out. */
+void cz_settings_apply_late(CzReader *reader, CzTree *tree, const CzSetting *setting,
+                            int n_setting);
 
 #endif

@@ -6,6 +6,7 @@ set(CZ_SOURCES_tree
     parts.c
     path.c
     record.c
+    segments.c
     settings.c
     trains.c
 )

@@ -441,11 +441,16 @@ static int count_idle(CzRecordId id) {
     return n_idle;
 }
 
+/* Records that no run shows, but the samples of tests/evaluate/test_sample.c. */
+static bool is_of_samples(int id) {
+    return id == CZ_RECORD_CzUncertainty || id == CZ_RECORD_CzScatter || id == CZ_RECORD_CzSpan;
+}
+
 static void every_other_key_acts(void **state) {
     (void)state;
     int n_idle = 0;
     for (int id = 0; id < CZ_N_RECORD; id++)
-        if (!is_of_vehicles((CzRecordId)id, CZ_RECORD_CzVehicle))
+        if (!is_of_vehicles((CzRecordId)id, CZ_RECORD_CzVehicle) && !is_of_samples(id))
             n_idle += count_idle((CzRecordId)id);
     assert_int_equal(n_idle, 0);
 }

@@ -1,0 +1,146 @@
+/* Reads a problem again with further scenarios. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/number.h"
+#include "problem/changes.h"
+#include "tree/merge.h"
+
+/* Context for writing scenarios as nodes. */
+typedef struct Writer {
+    CzArena *arena;
+    CzNode place;
+} Writer;
+
+static CzNode *make_node(const Writer *writer, CzNodeKind kind, int room) {
+    CzNode *node = cz_arena_allocate(writer->arena, 1, sizeof *node);
+    if (node == NULL)
+        return NULL;
+    *node = writer->place;
+    node->kind = kind;
+    node->n_entry = 0;
+    node->entry = cz_arena_allocate(writer->arena, (size_t)room + 1, sizeof *node->entry);
+    return node->entry != NULL ? node : NULL;
+}
+
+static bool put(const Writer *writer, CzNode *mapping, const char *key, const CzNode *value) {
+    return mapping != NULL &&
+           cz_node_append(writer->arena, mapping, key, &writer->place, value, &cz_no_trail);
+}
+
+static const CzNode *text(const Writer *writer, const char *value) {
+    return cz_node_name(writer->arena, value, &writer->place);
+}
+
+static const CzNode *number(const Writer *writer, double value) {
+    char digits[CZ_NUMBER_TEXT];
+    cz_number_print(digits, value);
+    char *copy = cz_arena_copy_text(writer->arena, digits, strlen(digits));
+    return copy != NULL ? cz_node_text(writer->arena, copy, &writer->place) : NULL;
+}
+
+static const CzNode *make_change(const Writer *writer, const CzCaseChange *change) {
+    static const char *const keys[] = {
+        [CZ_CASE_VALUE] = "value", [CZ_CASE_FACTOR] = "factor", [CZ_CASE_ADD] = "add"};
+    CzNode *node = make_node(writer, CZ_NODE_MAPPING, 2);
+    const bool is_made = put(writer, node, "path", text(writer, change->path)) &&
+                         put(writer, node, keys[change->kind], number(writer, change->number));
+    return is_made ? node : NULL;
+}
+
+static const CzNode *make_scenario(const Writer *writer, const CzProblem *problem,
+                                   const CzCase *made) {
+    CzNode *node = make_node(writer, CZ_NODE_MAPPING, 4);
+    CzNode *changes = make_node(writer, CZ_NODE_LIST, made->n_change);
+    for (int i = 0; changes != NULL && i < made->n_change; i++) {
+        const CzNode *change = make_change(writer, &made->change[i]);
+        if (change == NULL)
+            return NULL;
+        changes->entry[changes->n_entry++] = (CzEntry){.value = change, .trail = &cz_no_trail};
+    }
+    const char *like = problem->input.scenarios[made->scenario].name;
+    const bool is_made =
+        put(writer, node, "name", text(writer, made->name)) &&
+        put(writer, node, "like", text(writer, like)) &&
+        put(writer, node, "reserves",
+            cz_node_text(writer->arena, made->reserves ? "true" : "false", &writer->place)) &&
+        put(writer, node, "changes", changes);
+    return is_made ? node : NULL;
+}
+
+/* The list of scenarios of a tree with further ones; NULL without memory. */
+static const CzNode *add_scenarios(const Writer *writer, const CzProblem *problem, int n_case,
+                                   const CzCase *cases) {
+    const CzEntry *own = cz_node_find_list(problem->tree.root, "scenarios");
+    CzNode *list = own != NULL ? cz_node_copy(writer->arena, own->value, n_case)
+                               : make_node(writer, CZ_NODE_LIST, n_case + 1);
+    if (own == NULL && list != NULL) { /* the trains as written */
+        CzNode *first = make_node(writer, CZ_NODE_MAPPING, 1);
+        if (!put(writer, first, "name", text(writer, problem->input.scenarios[0].name)))
+            return NULL;
+        list->entry[list->n_entry++] = (CzEntry){.value = first, .trail = &cz_no_trail};
+    }
+    for (int i = 0; list != NULL && i < n_case; i++) {
+        const CzNode *scenario = make_scenario(writer, problem, &cases[i]);
+        if (scenario == NULL)
+            return NULL;
+        list->entry[list->n_entry++] = (CzEntry){.value = scenario, .trail = &cz_no_trail};
+    }
+    return list;
+}
+
+/* The tree of a problem with further scenarios; false without memory. */
+static bool extend_tree(CzProblem *made, const CzProblem *problem, int n_case,
+                        const CzCase *cases) {
+    CzReader *reader = &made->reader;
+    const CzSource *source = cz_sources_add(&reader->sources, "(cases)", ".", "", 0);
+    const Writer writer = {.arena = &reader->arena,
+                           .place = {.source = source, .line = 1, .column = 1}};
+    const CzNode *list = source != NULL ? add_scenarios(&writer, problem, n_case, cases) : NULL;
+    CzNode *root =
+        list != NULL ? cz_node_without(&reader->arena, made->tree.root, "scenarios", 1) : NULL;
+    made->tree.root = root;
+    return root != NULL && put(&writer, root, "scenarios", list);
+}
+
+/* Takes the parts of a problem that further scenarios leave as they are. */
+static bool take_rest(CzProblem *made, const CzProblem *problem) {
+    const int n_variable = problem->input.optimise.n_variables;
+    memcpy(made->hash, problem->hash, sizeof made->hash);
+    made->profile = problem->profile;
+    made->measured = problem->measured;
+    made->reader.sources.first = problem->reader.sources.first;
+    if (problem->targets == NULL)
+        return true;
+    made->targets =
+        cz_arena_allocate(&made->reader.arena, (size_t)n_variable, sizeof *made->targets);
+    for (int i = 0; made->targets != NULL && i < n_variable; i++)
+        if (!cz_targets_copy(made, problem, &problem->targets[i], &made->targets[i]))
+            return false;
+    return made->targets != NULL;
+}
+
+CzStatus cz_problem_read_cases(const CzProblem *problem, int n_case, const CzCase *cases,
+                               CzProblem **extended, CzError *error) {
+    *extended = NULL;
+    CzSetting *none = NULL;
+    CzProblem *made = cz_problem_create_again(problem, 0, &none);
+    if (made == NULL)
+        return cz_no_memory(error, "the cases");
+    int failed = 0;
+    CzStatus status = CZ_STATUS_NO_MEMORY;
+    if (extend_tree(made, problem, n_case, cases)) {
+        cz_problem_bind(made, &made->tree);
+        status = cz_rules_check_again(made, error);
+    }
+    if (status == CZ_OK && !take_rest(made, problem))
+        status = CZ_STATUS_NO_MEMORY;
+    if (status == CZ_OK)
+        status = cz_changes_read(made, &failed, error);
+    if (status == CZ_OK)
+        *extended = made;
+    else
+        cz_problem_free(made);
+    return status == CZ_STATUS_NO_MEMORY ? cz_no_memory(error, "the cases") : status;
+}

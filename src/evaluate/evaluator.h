@@ -41,6 +41,15 @@ CzConstraintKind cz_evaluator_constraint_kind(const CzEvaluator *evaluator, int 
  * file. Statuses: CZ_OK, CZ_STATUS_INPUT with the place, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_evaluator_check_start(const CzEvaluator *evaluator, CzError *error);
 
+/* Lets a search begin at a design x (n_variable) in place of the file's. */
+void cz_evaluator_set_start(CzEvaluator *evaluator, const double *x);
+
+/* The problem with a design's values, as read from a file with them; freed by the caller before the
+ * evaluator's problem. Statuses: CZ_OK, CZ_STATUS_INPUT for a design that breaks a rule,
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_evaluator_read_design(const CzEvaluator *evaluator, const double *x,
+                                                CzProblem **problem, CzError *error);
+
 /* Combinations of the variables that choose, 1 without any; writes the choices of one combination
  * into a design x (n_variable) and leaves the other variables unchanged. */
 int cz_evaluator_n_combination(const CzEvaluator *evaluator);

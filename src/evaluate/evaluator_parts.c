@@ -265,6 +265,26 @@ CzStatus cz_evaluator_check_start(const CzEvaluator *evaluator, CzError *error) 
     return check_start_vehicles(evaluator, error);
 }
 
+void cz_evaluator_set_start(CzEvaluator *evaluator, const double *x) {
+    for (int i = 0; i < evaluator->design.n_variable; i++)
+        evaluator->design.variable[i].info.start = x[i];
+}
+
+CzStatus cz_evaluator_read_design(const CzEvaluator *evaluator, const double *x,
+                                  CzProblem **problem, CzError *error) {
+    CzArena arena = {0};
+    CzVariantSettings settings;
+    CzStatus status;
+    if (cz_design_settings(&evaluator->design, cz_design_combination(&evaluator->design, x), x,
+                           &arena, &settings))
+        status = cz_problem_read_again(evaluator->problem, settings.n, settings.path,
+                                       settings.value, problem, error);
+    else
+        status = cz_no_memory(error, "the settings of a design");
+    cz_arena_free(&arena);
+    return status;
+}
+
 int cz_evaluator_n_combination(const CzEvaluator *evaluator) {
     return evaluator->n_variant;
 }

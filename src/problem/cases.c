@@ -107,10 +107,7 @@ static bool extend_tree(CzProblem *made, const CzProblem *problem, int n_case,
 /* Takes the parts of a problem that further scenarios leave as they are. */
 static bool take_rest(CzProblem *made, const CzProblem *problem) {
     const int n_variable = problem->input.optimise.n_variables;
-    memcpy(made->hash, problem->hash, sizeof made->hash);
-    made->profile = problem->profile;
-    made->measured = problem->measured;
-    made->reader.sources.first = problem->reader.sources.first;
+    cz_problem_take_files(made, problem);
     if (problem->targets == NULL)
         return true;
     made->targets =
@@ -128,7 +125,7 @@ CzStatus cz_problem_read_cases(const CzProblem *problem, int n_case, const CzCas
     CzProblem *made = cz_problem_create_again(problem, 0, &none);
     if (made == NULL)
         return cz_no_memory(error, "the cases");
-    int failed = 0;
+    const void *field = NULL;
     CzStatus status = CZ_STATUS_NO_MEMORY;
     if (extend_tree(made, problem, n_case, cases)) {
         cz_problem_bind(made, &made->tree);
@@ -137,7 +134,7 @@ CzStatus cz_problem_read_cases(const CzProblem *problem, int n_case, const CzCas
     if (status == CZ_OK && !take_rest(made, problem))
         status = CZ_STATUS_NO_MEMORY;
     if (status == CZ_OK)
-        status = cz_changes_read(made, &failed, error);
+        status = cz_changes_read(made, &field, error);
     if (status == CZ_OK)
         *extended = made;
     else

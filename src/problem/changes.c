@@ -46,14 +46,17 @@ bool cz_change_is_late(const char *path) {
     return strncmp(path, "parts.", 6) != 0;
 }
 
+/* Name in messages of the changes of a scenario, whose lines are counted as they are. */
+static const char source_name[] = "(changes)";
+
 /* Converts the changes of a scenario to settings; false without memory. */
 static bool make_settings(CzProblem *made, const CzScenario *scenario, int index,
                           CzSetting *setting) {
     CzReader *reader = &made->reader;
-    const CzSource *source = cz_sources_add(&reader->sources, "(changes)", ".", "", 0);
-    const CzNode place = {.source = source, .line = 1, .column = 1};
+    const CzSource *source = cz_sources_add(&reader->sources, source_name, ".", "", 0);
     for (int i = 0; source != NULL && i < scenario->n_changes; i++) {
         const CzChange *change = &scenario->changes[i];
+        const CzNode place = {.source = source, .line = i + 1, .column = 1};
         char text[CZ_PATH_ROOM];
         const char *path = cz_change_path(change->path, index, text);
         const char *copy = cz_arena_copy_text(&reader->arena, path, strlen(path));
@@ -66,7 +69,16 @@ static bool make_settings(CzProblem *made, const CzScenario *scenario, int index
     return source != NULL;
 }
 
-static CzStatus read_one(const CzProblem *problem, int index, CzProblem **changed, CzError *error) {
+/* The field that a mistake in changes belongs to. */
+static const void *field_of(const CzScenario *scenario, const CzError *mistake) {
+    const bool is_of_change = strcmp(mistake->file, source_name) == 0 && mistake->line >= 1 &&
+                              mistake->line <= scenario->n_changes;
+    return is_of_change ? (const void *)&scenario->changes[mistake->line - 1].path
+                        : &scenario->changes;
+}
+
+static CzStatus read_one(const CzProblem *problem, int index, CzProblem **changed,
+                         const void **field, CzError *error) {
     const CzScenario *scenario = &problem->input.scenarios[index];
     CzSetting *setting = NULL;
     CzProblem *made = cz_problem_create_again(problem, scenario->n_changes, &setting);
@@ -76,6 +88,7 @@ static CzStatus read_one(const CzProblem *problem, int index, CzProblem **change
         cz_problem_bind(made, &made->tree);
     CzError mistake = {0};
     CzStatus status = cz_rules_check_again(made, &mistake);
+    *field = field_of(scenario, &mistake);
     if (status == CZ_STATUS_INPUT)
         cz_fail(error, status, "the changes of scenario '%.48s': %.400s", scenario->name,
                 mistake.message);
@@ -103,7 +116,7 @@ static bool changes_are_alike(const CzScenario *first, const CzScenario *second)
     return are_alike;
 }
 
-CzStatus cz_changes_read(CzProblem *problem, int *failed, CzError *error) {
+CzStatus cz_changes_read(CzProblem *problem, const void **field, CzError *error) {
     const CzInput *input = &problem->input;
     int n_changed = 0;
     for (int s = 0; s < input->n_scenarios; s++)
@@ -119,7 +132,7 @@ CzStatus cz_changes_read(CzProblem *problem, int *failed, CzError *error) {
         if (last >= 0 && changes_are_alike(&input->scenarios[last], &input->scenarios[s]))
             problem->changed[s] = problem->changed[last];
         else
-            CZ_TRY(read_one(problem, *failed = s, &problem->changed[s], error));
+            CZ_TRY(read_one(problem, s, &problem->changed[s], field, error));
         last = s;
     }
     return CZ_OK;

@@ -8,7 +8,7 @@
  * Statuses: CZ_OK, CZ_STATUS_INPUT with the mistake and *failed, the scenario that has it,
  * CZ_STATUS_NO_MEMORY.
  */
-CZ_MUST_CHECK CzStatus cz_changes_read(CzProblem *problem, int *failed, CzError *error);
+CZ_MUST_CHECK CzStatus cz_changes_read(CzProblem *problem, const void **field, CzError *error);
 
 /* The path of a change as settings take it: `scenario.` at its start becomes that of the scenario,
  * which is written to `text`. */

@@ -38,14 +38,13 @@ static CzStatus begin(const CzProblemOptions *options, const char *file, CzProbl
 /* Reads the problems of scenarios with changes, which shows what is wrong with the changes. */
 static void read_changes(const CzRules *rules, CzProblem *problem) {
     CzError error = {0};
-    int failed = 0;
+    const void *field = NULL;
     if (rules->mistakes->n_mistake > 0 || rules->reader->has_holes)
         return;
-    const CzStatus status = cz_changes_read(problem, &failed, &error);
+    const CzStatus status = cz_changes_read(problem, &field, &error);
     problem->reader.arena.out_of_memory |= status == CZ_STATUS_NO_MEMORY;
     if (status == CZ_STATUS_INPUT)
-        cz_rule_broken(rules, &problem->input.scenarios[failed].changes, "%s" CZ_HELP "%s",
-                       error.message, error.help);
+        cz_rule_broken(rules, field, "%s" CZ_HELP "%s", error.message, error.help);
 }
 
 static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOptions *options) {

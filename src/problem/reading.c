@@ -45,6 +45,13 @@ CzProblem *cz_problem_create_again(const CzProblem *problem, int n_more, CzSetti
     return again;
 }
 
+void cz_problem_take_files(CzProblem *again, const CzProblem *problem) {
+    memcpy(again->hash, problem->hash, sizeof again->hash);
+    again->profile = problem->profile;
+    again->measured = problem->measured;
+    again->reader.sources.first = problem->reader.sources.first;
+}
+
 CzBinder cz_problem_binder(CzProblem *problem, const CzTree *tree) {
     return (CzBinder){.reader = &problem->reader,
                       .places = &problem->places,

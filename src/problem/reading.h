@@ -37,6 +37,9 @@ CzProblem *cz_problem_create(const char *share_folder);
  * for n_more settings after its own. NULL without memory. */
 CzProblem *cz_problem_create_again(const CzProblem *problem, int n_more, CzSetting **more);
 
+/* Borrows what was read from further files: profile, time histories, the list of files. */
+void cz_problem_take_files(CzProblem *again, const CzProblem *problem);
+
 /* Copies targets of a problem to one that was read from the same trains; false without memory. */
 bool cz_targets_copy(const CzProblem *to, const CzProblem *from, const CzTargets *targets,
                      CzTargets *copy);

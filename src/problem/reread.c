@@ -29,14 +29,15 @@ CzStatus cz_problem_read_again(const CzProblem *problem, int n_more, const char 
     CzReader *reader = &made->reader;
     if (make_settings(reader, n_more, path, value, more))
         cz_problem_bind(made, &made->tree);
-    int failed = 0;
+    const void *field = NULL;
     CzStatus status = cz_rules_check_again(made, error);
     if (status == CZ_OK)
-        status = cz_changes_read(made, &failed, error);
+        status = cz_changes_read(made, &field, error);
     if (status != CZ_OK) {
         cz_problem_free(made);
         return status;
     }
+    cz_problem_take_files(made, problem);
     *again = made;
     return CZ_OK;
 }

@@ -24,6 +24,8 @@ _crushzone() {
     --algorithm) return ;;
     --evaluations) return ;;
     --seed) return ;;
+    --resume) COMPREPLY=($(compgen -f -- "$word")); return ;;
+    --max-time) return ;;
     --jobs | -j) return ;;
     --rounds) return ;;
     --as) return ;;
@@ -51,7 +53,7 @@ _crushzone() {
     case ${COMP_WORDS[1]} in
     run) options='--output --force --json --quiet --verbose --set --scenario --time-step-ms --integrator --strict --jobs --csv-sep --csv-decimal --color --help' ;;
     check) options='--output --force --json --quiet --verbose --set --scenario --time-step-ms --integrator --jobs --csv-sep --csv-decimal --color --help' ;;
-    optimise | optimize) options='--output --json --quiet --verbose --set --time-step-ms --algorithm --evaluations --seed --jobs --csv-sep --csv-decimal --color --help' ;;
+    optimise | optimize) options='--output --json --quiet --verbose --set --time-step-ms --algorithm --evaluations --seed --resume --max-time --jobs --csv-sep --csv-decimal --color --help' ;;
     sweep) options='--output --force --json --quiet --set --scenario --time-step-ms --strict --vary --metric --check --jobs --csv-sep --csv-decimal --color --help' ;;
     explain) options='--json --quiet --set --scenario --time-step-ms --jobs --color --help' ;;
     verify) options='--json --quiet --verbose --set --scenario --time-step-ms --jobs --color --help' ;;

@@ -154,6 +154,12 @@ CZ_API const CzVariableInfo *cz_evaluator_variable(const CzEvaluator *evaluator,
 
 CZ_API int cz_evaluator_n_constraint(const CzEvaluator *evaluator);
 CZ_API const char *cz_evaluator_constraint_name(const CzEvaluator *evaluator, int constraint);
+
+/* Details are constraints place by place: they are smooth where the worst of all places has
+ * breakpoints. A yes or no has none. The details of a fit are its residuals, whose squares add up
+ * to the objective. */
+CZ_API int cz_evaluator_n_detail(const CzEvaluator *evaluator);
+
 CZ_API const char *cz_evaluator_objective_name(const CzEvaluator *evaluator);
 /* Whether the objective is the smallest margin with its sign reversed, so that it is minimised: the
  * largest constraint up to a constant. */

@@ -26,6 +26,42 @@ typedef struct CzProgress {
     const char *phase;      /* such as "screen", "descend", "polish" */
 } CzProgress;
 
+/* One evaluation as a search received it. With all of them a search is repeated without a run.
+ * Arrays are borrowed; their values are NaN when the design failed. */
+typedef struct CzAnswer {
+    const double *x;          /* in the variables' units (n_variable) */
+    double objective;         /* in its unit */
+    const double *constraint; /* as in CzEvaluation (n_constraint) */
+    const double *detail;     /* constraints place by place (cz_evaluator_n_detail) */
+} CzAnswer;
+
+/* Evaluations that a search made side by side, in order. */
+typedef struct CzNews {
+    const char *phase;
+    int n;
+    const CzAnswer *answer;         /* (n) */
+    const CzEvaluation *evaluation; /* without runs (n) */
+    long n_evaluation;              /* of the search so far, with these */
+    const double *best; /* the best design so far that a file may contain, in the variables' units,
+                           when the last news did not have it; else NULL (n_variable) */
+    double best_violation;
+} CzNews;
+
+/* Earlier evaluations of a search, and what keeps further ones. A search with the same problem,
+ * algorithm, seed and limit asks for the same designs in the same order; with a higher limit it may
+ * ask for others. */
+typedef struct CzJournal {
+    long n_answer;
+    const CzAnswer *answer; /* (n_answer) */
+    long n_earlier; /* the first of them are of a search with a lower limit: they answer the same
+                       designs in any order. The others answer in order; a search that asks for
+                       another design ends with CZ_STATUS_INPUT */
+    CzStatus (*keep)(const CzNews *news, void *data,
+                     CzError *error); /* called before the next evaluation begins; a failure ends
+                                         the search with its status. NULL: none */
+    void *keep_data;
+} CzJournal;
+
 typedef struct CzOptimiseOptions {
     const char *algorithm; /* "auto" or an NLopt name such as "LN_COBYLA"; NULL: that of the file */
     long evaluations;      /* largest number of evaluations; 0: that of the file */
@@ -35,6 +71,7 @@ typedef struct CzOptimiseOptions {
     const volatile sig_atomic_t *stop; /* a flag that ends the search when not 0; NULL when none */
     void (*progress)(const CzProgress *progress, void *data); /* NULL when none */
     void *progress_data;
+    const CzJournal *journal; /* NULL when none */
 } CzOptimiseOptions;
 CZ_API CzOptimiseOptions cz_optimise_options_default(void);
 
@@ -97,6 +134,10 @@ CZ_MUST_CHECK CZ_API CzStatus cz_outcome_recall(CzEvaluator *evaluator, const Cz
 /* Refuses what cz_optimise would refuse, without a search. Statuses: CZ_OK, CZ_STATUS_INPUT. */
 CZ_MUST_CHECK CZ_API CzStatus cz_optimise_check(const CzEvaluator *evaluator,
                                                 const CzOptimiseOptions *options, CzError *error);
+
+/* The same; replaces default values of algorithm, evaluations and seed by those of the file. */
+CZ_MUST_CHECK CZ_API CzStatus cz_optimise_settle(const CzEvaluator *evaluator,
+                                                 CzOptimiseOptions *options, CzError *error);
 
 CZ_API void cz_outcome_free(CzOutcome *outcome);
 

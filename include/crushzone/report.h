@@ -34,6 +34,8 @@ typedef struct CzReportOptions {
     int n_word;
     const char *text;     /* text of a problem that was not read from a file; NULL otherwise */
     size_t n_text;        /* [byte] */
+    const char *journal;  /* file with the journal of the search, copied into the folder; NULL when
+                             there is none */
     bool replaces_search; /* a result folder with the result of a search may be replaced by another
                              result */
 } CzReportOptions;
@@ -173,6 +175,52 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_check_file(const CzProblem *problem, con
                                                    bool is_page, CzError *error);
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_file(const char *path, CzReportWriter *write,
                                                    const void *data, CzError *error);
+
+/* The journal of a search in its result folder: history.jsonl has every evaluation, one line each,
+ * written before the next begins; optimised.yaml is the best design so far. They are in the
+ * subfolder `unfinished` as long as the folder has earlier results. With them a search that was
+ * killed, interrupted or has ended goes on. */
+typedef struct CzJournalFile CzJournalFile;
+
+/* The beginning of the search that a journal is of. Texts are borrowed. */
+typedef struct CzJournalHead {
+    const char *algorithm;
+    long seed, evaluations;
+    const char *const *set; /* settings of the command line (n_set) */
+    int n_set;
+    const char *const *word; /* as in CzReportOptions (n_word) */
+    int n_word;
+    long n_answer;
+    bool was_torn; /* its last line was incomplete and is left out */
+} CzJournalHead;
+
+/* Opens the journal of a folder and keeps other processes from it; with `resumes` reads it, else
+ * refuses a folder with a search that has not ended. Ended by cz_journal_end. Statuses:
+ * CZ_STATUS_INPUT for a folder without a journal, or one that cannot be read; CZ_STATUS_OUTPUT,
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_journal_open(const char *folder, bool resumes,
+                                              CzJournalFile **file, CzError *error);
+
+/* Whether a search, of this or another process, has the journal of a folder open. */
+CZ_API bool cz_journal_is_open(const char *folder);
+
+/* Its head; NULL when it does not resume a search. */
+CZ_API const CzJournalHead *cz_journal_head(const CzJournalFile *file);
+
+/* Begins the journal of a search with these settled options and sets their `journal`, so that they
+ * are valid as long as the file is open. The report of the search is borrowed. Refuses with
+ * CZ_STATUS_INPUT the journal of another version, problem, algorithm or seed, or of a higher limit;
+ * with a lower limit the search may ask for other designs. Statuses also CZ_STATUS_OUTPUT,
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_journal_begin(CzJournalFile *file, const CzReport *report,
+                                               CzOptimiseOptions *options, CzError *error);
+
+/* Path of the journal, for CzReportOptions.journal. */
+CZ_API const char *cz_journal_path(const CzJournalFile *file);
+
+/* Closes the journal; with `removes` the files of a search that was not resumed are removed, as
+ * after one without any successful run. */
+CZ_API void cz_journal_end(CzJournalFile *file, bool removes);
 
 CZ_END_DECLARATIONS
 #endif

@@ -165,6 +165,15 @@ const char *cz_number_print(char text[CZ_NUMBER_TEXT], double value) {
     return text;
 }
 
+const char *cz_number_print_exact(char text[CZ_NUMBER_TEXT], double value) {
+    const LocaleGuard guard = locale_enter();
+    snprintf(text, CZ_NUMBER_TEXT, "%.15g", value);
+    if (isfinite(value) && strtod(text, NULL) != value)
+        snprintf(text, CZ_NUMBER_TEXT, "%.17g", value);
+    locale_leave(guard);
+    return text;
+}
+
 const char *cz_number_print_short(char text[CZ_NUMBER_TEXT], double value) {
     const LocaleGuard guard = locale_enter();
     snprintf(text, CZ_NUMBER_TEXT, "%.6g", value);

@@ -19,6 +19,9 @@ bool cz_number_scan(const char *text, double *value);
  * "nan", "inf", "-inf". Returns `text`. */
 const char *cz_number_print(char text[CZ_NUMBER_TEXT], double value);
 
+/* The same at once, with 15 or 17 significant digits: for long lists of numbers. */
+const char *cz_number_print_exact(char text[CZ_NUMBER_TEXT], double value);
+
 /* Writes a number for a sentence: at most six significant digits. Returns `text`. */
 const char *cz_number_print_short(char text[CZ_NUMBER_TEXT], double value);
 

@@ -2,6 +2,7 @@
 #include "cli/arguments.h"
 
 #include "base/error.h"
+#include "base/number.h"
 #include "base/suggest.h"
 #include "base/text.h"
 #include "crushzone/sweep.h"
@@ -168,6 +169,32 @@ static CzStatus read_whole(const CzArguments *arguments, CzOption option, long l
     return CZ_OK;
 }
 
+/* Reads a time with its unit, such as 30s. */
+static CzStatus read_time(const CzArguments *arguments, CzOption option, double *value,
+                          CzError *error) {
+    static const struct {
+        const char *name;
+        double factor; /* [s] */
+    } unit[] = {{"s", 1}, {"min", 60}, {"h", 3600}};
+    static const double longest = 1e7; /* [s] */
+    const char *text = arguments->text[option];
+    char number[32] = "";
+    if (text == NULL)
+        return CZ_OK;
+    const size_t n = strspn(text, "0123456789.");
+    for (size_t i = 0; i < sizeof unit / sizeof *unit && n < sizeof number; i++) {
+        snprintf(number, sizeof number, "%.*s", (int)n, text);
+        if (strcmp(text + n, unit[i].name) == 0 && cz_number_parse(number, value) == NULL) {
+            *value *= unit[i].factor;
+            if (*value > 0 && *value <= longest)
+                return CZ_OK;
+        }
+    }
+    return cz_fail(error, CZ_STATUS_INPUT,
+                   "'--%s %.40s' is not a time" CZ_HELP "write it with s, min or h, such as 90s",
+                   cz_options[option].name, text);
+}
+
 /* Reads one of the words, separated by |; *index is unchanged when the option is absent. */
 static CzStatus read_choice(const CzArguments *arguments, CzOption option, const char *words,
                             int *index, CzError *error) {
@@ -197,6 +224,7 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
     CZ_TRY(read_whole(arguments, CZ_OPTION_JOBS, 1, 1024, &n_job, error));
     CZ_TRY(
         read_whole(arguments, CZ_OPTION_EVALUATIONS, 1, 100000000, &arguments->evaluations, error));
+    CZ_TRY(read_time(arguments, CZ_OPTION_MAX_TIME, &arguments->max_time, error));
     CZ_TRY(read_whole(arguments, CZ_OPTION_ROUNDS, 1, 10000, &arguments->rounds, error));
     CZ_TRY(read_whole(arguments, CZ_OPTION_SEED, 0, 2000000000, &arguments->seed, error));
     CZ_TRY(read_whole(arguments, CZ_OPTION_STAGES, 0, 100, &n_stage, error));
@@ -240,7 +268,8 @@ static CzStatus check_file_name(const char *name, CzError *error) {
 }
 
 static CzStatus check_file_names(const CzArguments *arguments, CzError *error) {
-    static const CzOption files[] = {CZ_OPTION_OUTPUT, CZ_OPTION_SVG, CZ_OPTION_MEASURED};
+    static const CzOption files[] = {CZ_OPTION_OUTPUT, CZ_OPTION_RESUME, CZ_OPTION_SVG,
+                                     CZ_OPTION_MEASURED};
     for (int i = 0; i < arguments->n_operand; i++)
         CZ_TRY(check_file_name(arguments->operand[i], error));
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
@@ -270,6 +299,9 @@ static CzStatus check_operands(const CzArguments *arguments, CzError *error) {
         (arguments->n_vary < 1 || arguments->n_vary > CZ_MOST_AXES))
         return cz_fail(error, CZ_STATUS_INPUT,
                        "'crushzone sweep' needs --vary PATH=A:B:N once or twice");
+    if (arguments->text[CZ_OPTION_RESUME] != NULL && arguments->text[CZ_OPTION_OUTPUT] != NULL)
+        return cz_fail(error, CZ_STATUS_INPUT,
+                       "--resume takes no -o: the search goes on in its own folder");
     if (arguments->text[CZ_OPTION_JSON] != NULL && arguments->n_operand > 1 &&
         arguments->command != CZ_COMMAND_COMPARE)
         return cz_fail(error, CZ_STATUS_INPUT,

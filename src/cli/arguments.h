@@ -56,6 +56,7 @@ typedef struct CzArguments {
     int n_job;          /* 0: number of processors */
     long evaluations;   /* 0: that of the file */
     long seed;          /* -1: that of the file */
+    double max_time;    /* [s]; 0 for none */
     long rounds;        /* 0: the default */
     int n_stage;        /* -1: as many as the curve requires */
     int basis, flip;    /* words of these options, counted from 0; -1: not given */

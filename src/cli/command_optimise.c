@@ -1,16 +1,80 @@
-/* `optimise`: search, keep the best on the first signal, print before and after. */
+/* `optimise`: search with a journal, keep the best on the first signal, print before and after. */
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/messages.h"
 #include "cli/progress.h"
 #include "cli/session.h"
 
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
 static const char default_folder[] = "out-optimised";
 
-static CzStatus search(CzSession *session, CzOutcome **outcome, CzError *error) {
-    const CzArguments *arguments = session->arguments;
-    CzProgressLine line;
+/* A search with its folder. */
+typedef struct Search {
+    CzArguments arguments; /* of the command line; of a resumed search with those of its journal */
+    CzSession session;
+    CzReport report;
+    CzJournalFile *journal;
+    const char *folder;
+    CzOutcome *outcome;
+} Search;
+
+/* ---- resuming ---- */
+
+/* Replaces the options of a resumed search that are not given, or are the same, by those of its
+ * journal, so that its pages show the command that began it. */
+static void take_options(CzArguments *arguments, const CzJournalHead *head) {
+    const bool raises = arguments->evaluations > head->evaluations;
+    const struct {
+        CzOption option;
+        const char *word;
+        bool is_other;
+    } known[] = {{CZ_OPTION_ALGORITHM, "--algorithm", arguments->text[CZ_OPTION_ALGORITHM] != NULL},
+                 {CZ_OPTION_SEED, "--seed", arguments->seed >= 0},
+                 {CZ_OPTION_EVALUATIONS, "--evaluations", arguments->evaluations > 0}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        const char *written = NULL;
+        for (int k = 0; k + 1 < head->n_word; k += 2)
+            if (strcmp(head->word[k], known[i].word) == 0)
+                written = head->word[k + 1];
+        if (!known[i].is_other || (known[i].option == CZ_OPTION_EVALUATIONS && !raises))
+            arguments->text[known[i].option] = written;
+    }
+    if (arguments->seed < 0)
+        arguments->seed = head->seed;
+    if (arguments->evaluations == 0)
+        arguments->evaluations = head->evaluations;
+    if (arguments->n_set == 0) {
+        arguments->set = (const char **)head->set;
+        arguments->n_set = head->n_set;
+    }
+}
+
+/* Opens the journal of the folder. Returns the exit code. */
+static int open_journal(Search *search) {
+    const bool resumes = search->arguments.text[CZ_OPTION_RESUME] != NULL;
+    CzError error = {0};
+    if (cz_journal_open(search->folder, resumes, &search->journal, &error) != CZ_OK)
+        return cz_tell_error(&search->arguments, &error);
+    const CzJournalHead *head = cz_journal_head(search->journal);
+    if (head == NULL)
+        return 0;
+    take_options(&search->arguments, head);
+    cz_tell(&search->arguments, "resuming after %ld evaluations%s", head->n_answer,
+            head->was_torn ? "; the last line of the journal was incomplete and is left out" : "");
+    return 0;
+}
+
+/* ---- the search ---- */
+
+static CzOptimiseOptions options_of(const Search *search) {
+    const CzArguments *arguments = &search->arguments;
+    const CzJournalHead *head = cz_journal_head(search->journal);
     CzOptimiseOptions options = cz_optimise_options_default();
+    if (head != NULL)
+        options.algorithm = head->algorithm;
     if (arguments->text[CZ_OPTION_ALGORITHM] != NULL)
         options.algorithm = arguments->text[CZ_OPTION_ALGORITHM];
     if (arguments->evaluations > 0)
@@ -18,13 +82,22 @@ static CzStatus search(CzSession *session, CzOutcome **outcome, CzError *error) 
     if (arguments->seed >= 0)
         options.seed = arguments->seed;
     options.stop = cz_interrupt_flag();
-    options.progress = cz_progress_show;
-    options.progress_data = &line;
+    return options;
+}
 
+static CzStatus run(Search *search, CzOptimiseOptions *options, CzError *error) {
+    const CzArguments *arguments = &search->arguments;
+    const CzEvaluator *evaluator = search->session.evaluator;
+    CzProgressLine line;
+    options->progress = cz_progress_show;
+    options->progress_data = &line;
     cz_interrupt_catch();
-    cz_progress_begin(&line, arguments, cz_evaluator_maximises_margin(session->evaluator),
-                      cz_evaluator_objective_unit(session->evaluator));
-    const CzStatus status = cz_optimise(session->evaluator, &options, outcome, error);
+    if (arguments->max_time > 0)
+        cz_interrupt_after(arguments->max_time);
+    cz_progress_begin(&line, arguments, cz_evaluator_maximises_margin(evaluator),
+                      cz_evaluator_objective_unit(evaluator));
+    const CzStatus status =
+        cz_optimise(search->session.evaluator, options, &search->outcome, error);
     cz_progress_end(&line);
     return status;
 }
@@ -36,48 +109,78 @@ static int judge(const CzOutcome *outcome) {
     case CZ_OUTCOME_INFEASIBLE:
         return cz_status_exit_code(CZ_STATUS_VIOLATED);
     case CZ_OUTCOME_INTERRUPTED:
-        return 128 + cz_interrupt_signal();
+        return cz_interrupt_is_limit() ? cz_status_exit_code(CZ_STATUS_RUN_FAILED)
+                                       : 128 + cz_interrupt_signal();
     }
     return cz_status_exit_code(CZ_STATUS_INTERNAL);
 }
 
 /* The folder is written first, so that the best design is kept even if the terminal fails. */
-static int finish(CzSession *session, const CzOutcome *outcome, const char *folder) {
-    const CzArguments *arguments = session->arguments;
-    CzReport report = cz_session_report(session, CZ_REPORT_SEARCH, outcome->wall_s);
-    report.outcome = outcome;
-    const int unkept = cz_keep_results(arguments, &report, folder);
-    const int unprinted = cz_print_results(arguments, &report);
+static int finish(Search *search) {
+    const CzArguments *arguments = &search->arguments;
+    CzOutcome *outcome = search->outcome;
+    if (outcome->status == CZ_OUTCOME_INTERRUPTED && cz_interrupt_is_limit())
+        snprintf(outcome->why_stopped, sizeof outcome->why_stopped,
+                 "the time limit of %.40s is reached", arguments->text[CZ_OPTION_MAX_TIME]);
+    search->session.options.wall_s = outcome->wall_s;
+    search->session.options.journal = cz_journal_path(search->journal);
+    search->report.outcome = outcome;
+    const int unkept = cz_keep_results(arguments, &search->report, search->folder);
+    const int unprinted = cz_print_results(arguments, &search->report);
     if (unkept == 0)
         cz_tell(arguments,
                 "results in %s, computed in %.3g s; run the best design with: crushzone "
                 "check %s/optimised.yaml",
-                folder, outcome->wall_s, folder);
+                search->folder, outcome->wall_s, search->folder);
     return unkept != 0 ? unkept : unprinted != 0 ? unprinted : judge(outcome);
 }
 
-int cz_command_optimise(const CzArguments *arguments) {
-    const char *folder = arguments->text[CZ_OPTION_OUTPUT];
+/* Whether the journal of a search that failed has nothing worth keeping. */
+static bool is_useless(CzStatus status) {
+    return status == CZ_STATUS_INPUT || status == CZ_STATUS_RUN_FAILED;
+}
+
+static int search_and_finish(Search *search) {
     CzError error = {0};
-    if (folder == NULL)
-        folder = default_folder;
-    CzSession session;
-    CzOutcome *outcome = NULL;
-    int code = cz_session_begin(&session, arguments, arguments->operand[0]);
-    if (code == 0)
-        code = cz_session_check_folder(&session, folder, true);
-    if (code == 0) {
-        const CzStatus status = search(&session, &outcome, &error);
-        if (outcome != NULL)
-            code = finish(&session, outcome, folder);
-        if (status != CZ_OK && outcome != NULL) {
-            cz_print_mistake(arguments, "error", NULL, &error);
-            code = cz_status_exit_code(status);
-        } else if (status != CZ_OK) {
-            code = cz_session_fail(&session, &error);
-        }
+    CzOptimiseOptions options = options_of(search);
+    int code = 0;
+    search->report = cz_session_report(&search->session, CZ_REPORT_SEARCH, 0);
+    CzStatus status = cz_optimise_settle(search->session.evaluator, &options, &error);
+    if (status == CZ_OK)
+        status = cz_journal_begin(search->journal, &search->report, &options, &error);
+    if (status == CZ_OK)
+        status = run(search, &options, &error);
+    if (search->outcome != NULL)
+        code = finish(search);
+    if (status != CZ_OK && search->outcome != NULL) {
+        cz_print_mistake(&search->arguments, "error", NULL, &error);
+        code = cz_status_exit_code(status);
+    } else if (status != CZ_OK) {
+        code = cz_session_fail(&search->session, &error);
     }
-    cz_outcome_free(outcome);
-    cz_session_end(&session);
+    cz_journal_end(search->journal, is_useless(status));
+    search->journal = NULL;
+    return code;
+}
+
+int cz_command_optimise(const CzArguments *arguments) {
+    Search search = {.arguments = *arguments};
+    const bool resumes = arguments->text[CZ_OPTION_RESUME] != NULL;
+    search.folder = resumes ? arguments->text[CZ_OPTION_RESUME] : arguments->text[CZ_OPTION_OUTPUT];
+    if (search.folder == NULL)
+        search.folder = default_folder;
+    int code = resumes ? open_journal(&search) : 0;
+    if (code == 0) {
+        code = cz_session_begin(&search.session, &search.arguments, arguments->operand[0]);
+        if (code == 0)
+            code = cz_session_check_folder(&search.session, search.folder, true);
+        if (code == 0 && !resumes)
+            code = open_journal(&search);
+        if (code == 0)
+            code = search_and_finish(&search);
+        cz_outcome_free(search.outcome);
+        cz_session_end(&search.session);
+    }
+    cz_journal_end(search.journal, false);
     return code;
 }

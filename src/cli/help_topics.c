@@ -26,7 +26,8 @@ const CzHelpEntry cz_exit_codes[] = {
     {"1", "a check fails or could not be made, no feasible design was found (optimise), a law is "
           "refused (fit)"},
     {"2", "error in the command line or a problem file"},
-    {"3", "a run failed or is incomplete"},
+    {"3", "a run failed or is incomplete; the time limit of a search (--max-time) was reached, the "
+          "best design so far is written"},
     {"4", "results cannot be written"},
     {"5", "internal error, or no memory"},
     {"130", "interrupted (143 by SIGTERM); the best design so far is written"},

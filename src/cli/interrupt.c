@@ -1,7 +1,9 @@
 /* Signals that end a long command. */
 #include "cli/interrupt.h"
 
+#include <math.h>
 #include <stddef.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 /* The signal that was received, 0 for none. */
@@ -11,7 +13,7 @@ static volatile sig_atomic_t stop_signal;
 static void on_signal(int signal_number) {
     static const char text[] =
         "\ncrushzone: stopping after the current run; press Ctrl-C again to stop at once\n";
-    if (stop_signal != 0)
+    if (stop_signal != 0 && stop_signal != SIGALRM)
         _exit(128 + signal_number);
     stop_signal = signal_number;
     const ssize_t n_written = write(STDERR_FILENO, text, sizeof text - 1);
@@ -23,6 +25,25 @@ void cz_interrupt_catch(void) {
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+}
+
+/* A signal of the user that came first remains. */
+static void on_limit(int signal_number) {
+    if (stop_signal == 0)
+        stop_signal = signal_number;
+}
+
+void cz_interrupt_after(double limit) {
+    struct sigaction action = {.sa_handler = on_limit};
+    const struct itimerval timer = {
+        .it_value = {(time_t)limit, (suseconds_t)(1e6 * (limit - floor(limit)))}};
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGALRM, &action, NULL);
+    setitimer(ITIMER_REAL, &timer, NULL);
+}
+
+bool cz_interrupt_is_limit(void) {
+    return stop_signal == SIGALRM;
 }
 
 const volatile sig_atomic_t *cz_interrupt_flag(void) {

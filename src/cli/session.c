@@ -147,9 +147,19 @@ int cz_keep_results(const CzArguments *arguments, const CzReport *report, const 
 
 int cz_session_check_folder(const CzSession *session, const char *folder, bool replaces_search) {
     CzError error = {0};
-    if (folder == NULL ||
-        cz_report_check_folder(session->problem, folder, replaces_search, &error) == CZ_OK)
+    if (folder == NULL)
         return 0;
+    const CzStatus status =
+        cz_report_check_folder(session->problem, folder, replaces_search, &error);
+    /* A search opens its own folder. */
+    const bool is_open =
+        session->arguments->command != CZ_COMMAND_OPTIMISE && cz_journal_is_open(folder);
+    if (status == CZ_OK && !is_open)
+        return 0;
+    if (status == CZ_OK)
+        cz_fail(&error, CZ_STATUS_OUTPUT,
+                "another process is searching in the folder %.300s; choose another one with -o",
+                folder);
     return cz_tell_error(session->arguments, &error);
 }
 

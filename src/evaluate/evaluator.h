@@ -59,10 +59,11 @@ void cz_evaluator_set_combination(const CzEvaluator *evaluator, int combination,
  * is borrowed. */
 void cz_evaluator_set_stop(CzEvaluator *evaluator, const volatile sig_atomic_t *stop);
 
-/* Details are constraints place by place: they are smooth where the worst of all places has
- * breakpoints. A yes or no has none. The details of a fit are its residuals, whose squares add up
- * to the objective. */
-int cz_evaluator_n_detail(const CzEvaluator *evaluator);
+/* Names the checks of every evaluation, in their order; `name` and `scenario` have room for
+ * cz_evaluator_n_check, `scenario` gets NULL for a check of the design. */
+int cz_evaluator_n_check(const CzEvaluator *evaluator);
+void cz_evaluator_name_checks(const CzEvaluator *evaluator, const char **name,
+                              const char **scenario);
 
 /* As cz_evaluate without keeping runs, for a search: runs end as soon as their results are final,
  * and `detail` (n_point x n_detail) gets the details, NaN for designs that failed. */

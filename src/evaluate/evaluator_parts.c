@@ -211,6 +211,30 @@ const CzProblem *cz_evaluator_problem(const CzEvaluator *evaluator) {
     return evaluator->problem;
 }
 
+int cz_evaluator_n_check(const CzEvaluator *evaluator) {
+    int n = evaluator->matches.n_item;
+    for (int i = 0; i < evaluator->list.n_check; i++)
+        n += !evaluator->list.check[i].is_target;
+    return n;
+}
+
+void cz_evaluator_name_checks(const CzEvaluator *evaluator, const char **name,
+                              const char **scenario) {
+    int n = 0;
+    for (int i = 0; i < evaluator->list.n_check; i++) {
+        const CzCheck *check = &evaluator->list.check[i];
+        if (check->is_target)
+            continue;
+        name[n] = check->name;
+        scenario[n++] =
+            check->scenario == CZ_NO_SCENARIO ? NULL : evaluator->scene[check->scenario].name;
+    }
+    for (int i = 0; i < evaluator->matches.n_item; i++) {
+        name[n] = evaluator->matches.item[i].written->name;
+        scenario[n++] = evaluator->scene[evaluator->matches.item[i].scenario].name;
+    }
+}
+
 int cz_evaluator_n_detail(const CzEvaluator *evaluator) {
     return evaluator->n_detail;
 }

@@ -58,9 +58,8 @@ static bool is_better(const CzSearch *search, const CzSearch *other) {
 }
 
 /* Begins and runs a further search. */
-static CzStatus begin(CzCombinations *combinations, CzEvaluator *evaluator, int combination,
-                      const double *start, long evaluations, const CzOptimiseOptions *options,
-                      CzError *error) {
+static CzStatus begin(CzCombinations *combinations, int combination, const double *start,
+                      long evaluations, const CzOptimiseOptions *options, CzError *error) {
     CzSubspace *subspace = &combinations->subspace[combinations->n];
     CzSearch *search = &subspace->search;
     CzOptimiseOptions own = *options;
@@ -68,7 +67,8 @@ static CzStatus begin(CzCombinations *combinations, CzEvaluator *evaluator, int 
     for (int i = 0; i < combinations->n; i++)
         n_earlier += combinations->subspace[i].search.n_record;
     own.evaluations = evaluations;
-    if (!cz_subspace_create(evaluator, combination, start, &combinations->arena, subspace))
+    if (!cz_subspace_create(&combinations->replay, combination, start, &combinations->arena,
+                            subspace))
         return cz_no_memory(error, "a search");
     cz_search_init(search, &subspace->function, &own);
     search->n_earlier = n_earlier;
@@ -82,14 +82,14 @@ static CzStatus begin(CzCombinations *combinations, CzEvaluator *evaluator, int 
 
 /* Runs a short search of every combination, then uses all remaining evaluations for the best
  * one. */
-static CzStatus search_choices(CzEvaluator *evaluator, int n, const CzOptimiseOptions *options,
+static CzStatus search_choices(int n, const CzOptimiseOptions *options,
                                CzCombinations *combinations, CzError *error) {
     const long half = options->evaluations / (2 * (long)n);
     long left = options->evaluations;
     int n_failed = 0;
     for (int combination = 0; combination < n && left > 0; combination++) {
         const CzStatus status =
-            begin(combinations, evaluator, combination, NULL, half > 0 ? half : 1, options, error);
+            begin(combinations, combination, NULL, half > 0 ? half : 1, options, error);
         const CzSearch *search = &combinations->subspace[combinations->n - 1].search;
         n_failed += status == CZ_STATUS_RUN_FAILED;
         if (status != CZ_OK && (status != CZ_STATUS_RUN_FAILED || n_failed == n))
@@ -102,8 +102,8 @@ static CzStatus search_choices(CzEvaluator *evaluator, int n, const CzOptimiseOp
     const long record = cz_combinations_record(best);
     if (record < 0 || left < 1 || best->function->n_variable == 0)
         return CZ_OK;
-    return begin(combinations, evaluator, combinations->chosen, cz_search_x(best, record), left,
-                 options, error);
+    return begin(combinations, combinations->chosen, cz_search_x(best, record), left, options,
+                 error);
 }
 
 CzStatus cz_combinations(CzEvaluator *evaluator, const CzOptimiseOptions *options,
@@ -114,13 +114,15 @@ CzStatus cz_combinations(CzEvaluator *evaluator, const CzOptimiseOptions *option
         cz_arena_allocate(&combinations->arena, (size_t)n + 1, sizeof *combinations->subspace);
     if (combinations->subspace == NULL)
         return cz_no_memory(error, "the search");
+    CZ_TRY(cz_replay_begin(&combinations->replay, evaluator, options->journal, error));
     if (n > 1)
-        return search_choices(evaluator, n, options, combinations, error);
-    return begin(combinations, evaluator, 0, NULL, options->evaluations, options, error);
+        return search_choices(n, options, combinations, error);
+    return begin(combinations, 0, NULL, options->evaluations, options, error);
 }
 
 void cz_combinations_free(CzCombinations *combinations) {
     for (int i = 0; i < combinations->n; i++)
         cz_search_free(&combinations->subspace[i].search);
+    cz_replay_free(&combinations->replay);
     cz_arena_free(&combinations->arena);
 }

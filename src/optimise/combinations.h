@@ -8,6 +8,7 @@
 
 typedef struct CzCombinations {
     CzArena arena;
+    CzReplay replay;      /* of all searches */
     int n;                /* searches that were begun */
     CzSubspace *subspace; /* with their searches (n) */
     int chosen;           /* search with the best design */

@@ -249,10 +249,9 @@ static CzStatus fill_outcome(CzEvaluator *evaluator, const CzCombinations *combi
 
 /* ---- the search ------------------------------------------------------------------------------ */
 
-static CzStatus settle_options(const CzEvaluator *evaluator, const CzOptimiseOptions *given,
-                               CzOptimiseOptions *options, CzError *error) {
+CzStatus cz_optimise_settle(const CzEvaluator *evaluator, CzOptimiseOptions *options,
+                            CzError *error) {
     const CzOptimise *written = &cz_problem_input(cz_evaluator_problem(evaluator))->optimise;
-    *options = given != NULL ? *given : cz_optimise_options_default();
     if (cz_evaluator_n_variable(evaluator) == 0)
         return cz_fail(
             error, CZ_STATUS_INPUT,
@@ -277,17 +276,17 @@ static CzStatus settle_options(const CzEvaluator *evaluator, const CzOptimiseOpt
 
 CzStatus cz_optimise_check(const CzEvaluator *evaluator, const CzOptimiseOptions *options,
                            CzError *error) {
-    CzOptimiseOptions settled;
-    return settle_options(evaluator, options, &settled, error);
+    CzOptimiseOptions settled = options != NULL ? *options : cz_optimise_options_default();
+    return cz_optimise_settle(evaluator, &settled, error);
 }
 
 CzStatus cz_optimise(CzEvaluator *evaluator, const CzOptimiseOptions *given, CzOutcome **outcome,
                      CzError *error) {
     const double began = cz_clock();
-    CzOptimiseOptions options;
+    CzOptimiseOptions options = given != NULL ? *given : cz_optimise_options_default();
     CzCombinations combinations;
     *outcome = NULL;
-    CZ_TRY(settle_options(evaluator, given, &options, error));
+    CZ_TRY(cz_optimise_settle(evaluator, &options, error));
     cz_evaluator_set_stop(evaluator, options.stop);
     CzStatus status = cz_combinations(evaluator, &options, &combinations, error);
     cz_evaluator_set_stop(evaluator, NULL); /* the best design is evaluated in any case */

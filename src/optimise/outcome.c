@@ -78,7 +78,12 @@ CzStatus cz_outcome_verify(CzEvaluator *evaluator, const CzOptimiseOptions *opti
     chosen.stop = options->stop;
     const CzStatus status = cz_verify(evaluator, outcome->best, &outcome->best_evaluation, &chosen,
                                       &outcome->verification, error);
-    return status == CZ_STATUS_INTERRUPTED ? CZ_OK : status;
+    if (status != CZ_STATUS_INTERRUPTED)
+        return status;
+    outcome->status = CZ_OUTCOME_INTERRUPTED;
+    snprintf(outcome->why_stopped, sizeof outcome->why_stopped,
+             "interrupted during the verification");
+    return CZ_OK;
 }
 
 /* ---- the record of an earlier search ------------------------------------------------

@@ -18,7 +18,8 @@ CzStatus cz_outcome_pass_on(CzOutcome *made, CzStatus status, CzOutcome **outcom
 /* Fills `at_bound` from `best`. */
 void cz_outcome_mark_bounds(const CzEvaluator *evaluator, CzOutcome *outcome);
 
-/* Verifies a design that passes. After a signal it remains unverified. */
+/* Verifies a design that passes. After a signal it remains unverified, and the outcome is
+ * interrupted. */
 CZ_MUST_CHECK CzStatus cz_outcome_verify(CzEvaluator *evaluator, const CzOptimiseOptions *options,
                                          CzOutcome *outcome, CzError *error);
 

@@ -118,15 +118,18 @@ bool cz_search_has_steps(const CzSearch *search) {
 
 /* ---- history and best design ----------------------------------------------------------------- */
 
+bool cz_record_is_better(const CzRecord *record, const CzRecord *other) {
+    if (record->is_barred != other->is_barred)
+        return other->is_barred;
+    if (record->penalty != other->penalty)
+        return record->penalty < other->penalty;
+    return record->objective < other->objective; /* false for NaN */
+}
+
 bool cz_search_is_better(const CzSearch *search, long record, long other) {
     if (other < 0 || record < 0)
         return record >= 0;
-    const CzRecord *a = &search->record[record], *b = &search->record[other];
-    if (a->is_barred != b->is_barred)
-        return b->is_barred;
-    if (a->penalty != b->penalty)
-        return a->penalty < b->penalty;
-    return a->objective < b->objective; /* false for NaN */
+    return cz_record_is_better(&search->record[record], &search->record[other]);
 }
 
 long cz_search_find(const CzSearch *search, const double *x) {
@@ -262,6 +265,27 @@ static double distance_from_best(const CzSearch *search, const double *x) {
     return sqrt(sum);
 }
 
+CzRecord cz_search_judge(const CzFunction *function, const char *phase, double objective,
+                         const double *constraint) {
+    CzRecord record = {.objective = objective, .phase = phase};
+    bool failed = !isfinite(objective);
+    for (int j = 0; j < function->n_constraint; j++) {
+        const CzConstraintKind kind = cz_constraint_kind(function, j);
+        failed |= isnan(constraint[j]);
+        record.violation = fmax(record.violation, constraint[j]);
+        if (kind == CZ_CONSTRAINT_GRADED)
+            record.missed = fmax(record.missed, constraint[j]);
+        record.is_barred |= kind == CZ_CONSTRAINT_RULES && constraint[j] > 0;
+        if (!function->is_fit)
+            record.penalty += cz_search_compressed(fmax(constraint[j], 0));
+        else if (kind == CZ_CONSTRAINT_GRADED)
+            record.penalty += pow(cz_search_residual(cz_search_compressed(constraint[j])), 2);
+    }
+    if (function->is_fit)
+        record.penalty += objective;
+    return failed ? (CzRecord){NAN, INFINITY, INFINITY, phase, false, true, INFINITY} : record;
+}
+
 /* Records the values of one design and makes them finite and smooth for an algorithm. */
 static void record_values(CzSearch *search, const char *phase, const double *x, double *objective,
                           double *constraint, double *detail) {
@@ -269,26 +293,9 @@ static void record_values(CzSearch *search, const char *phase, const double *x, 
     const int n_detail = detail != NULL ? cz_search_n_detail(search) : 0;
     if (n_detail > 0 && search->function->n_detail == 0)
         memcpy(detail, constraint, (size_t)m * sizeof *detail);
-    CzRecord record = {.objective = *objective, .phase = phase};
-    bool failed = !isfinite(*objective);
-    for (int j = 0; j < m; j++) {
-        failed |= isnan(constraint[j]);
-        record.violation = fmax(record.violation, constraint[j]);
-        if (cz_constraint_kind(search->function, j) == CZ_CONSTRAINT_GRADED)
-            record.missed = fmax(record.missed, constraint[j]);
-        record.is_barred |=
-            cz_constraint_kind(search->function, j) == CZ_CONSTRAINT_RULES && constraint[j] > 0;
-        if (!search->function->is_fit)
-            record.penalty += cz_search_compressed(fmax(constraint[j], 0));
-        else if (cz_constraint_kind(search->function, j) == CZ_CONSTRAINT_GRADED)
-            record.penalty += pow(cz_search_residual(cz_search_compressed(constraint[j])), 2);
-    }
-    if (search->function->is_fit)
-        record.penalty += *objective;
-    if (failed)
-        record = (CzRecord){NAN, INFINITY, INFINITY, phase, false, true, INFINITY};
+    const CzRecord record = cz_search_judge(search->function, phase, *objective, constraint);
     add_record(search, x, &record);
-    if (failed) {
+    if (isnan(record.objective)) {
         const double ramp = 1 + distance_from_best(search, x);
         const double top = isfinite(search->worst_objective) ? search->worst_objective : 1;
         *objective = top + fmax(fabs(top), 1) * ramp;
@@ -322,6 +329,7 @@ bool cz_search_evaluate(CzSearch *search, const char *phase, int n, const double
         return false;
     }
     CzStatus status = CZ_STATUS_NO_MEMORY;
+    search->phase = phase;
     if (make_room(search, n))
         status = function->evaluate(function->data, n, x, objective, constraint,
                                     function->n_detail > 0 ? detail : NULL, &search->error);

@@ -58,6 +58,7 @@ typedef struct CzSearch {
     const volatile sig_atomic_t *stop; /* NULL when none */
     void (*progress)(const CzProgress *progress, void *data);
     void *progress_data;
+    const char *phase; /* of the designs that are being evaluated */
 
     long n_earlier, most_in_all; /* evaluations of earlier searches, and limit of all searches, for
                                     the progress */
@@ -84,6 +85,14 @@ typedef struct CzSearch {
  * caller. */
 void cz_search_init(CzSearch *search, const CzFunction *function, const CzOptimiseOptions *options);
 void cz_search_free(CzSearch *search);
+
+/* The values of a design as a record; whether it is `on_grid` remains open. */
+CzRecord cz_search_judge(const CzFunction *function, const char *phase, double objective,
+                         const double *constraint);
+
+/* Whether a record is better: valid designs first, then by smaller penalty, then by smaller
+ * objective. */
+bool cz_record_is_better(const CzRecord *record, const CzRecord *other);
 
 /* Evaluations left; 0 when the search is over or paused. */
 long cz_search_left(const CzSearch *search);
@@ -130,8 +139,7 @@ bool cz_search_is_apart(const CzSearch *search, long record, int n_chosen, const
 /* Variables of a record (n_variable). */
 const double *cz_search_x(const CzSearch *search, long record);
 
-/* Whether a record is better: valid designs first, then by smaller penalty, then by smaller
- * objective. */
+/* The same for records of a search by number; a number below 0 is worse than any. */
 bool cz_search_is_better(const CzSearch *search, long record, long other);
 
 /* Record with exactly these variables, -1 when there is none. */

@@ -6,6 +6,7 @@ set(CZ_SOURCES_optimise
     nlopt_adapter.c
     optimise.c
     outcome.c
+    replay.c
     sample.c
     search.c
     sensitivity.c

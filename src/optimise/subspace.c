@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "evaluate/evaluator.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 void cz_subspace_expand(const CzSubspace *subspace, const double *number, double *x) {
@@ -12,35 +11,45 @@ void cz_subspace_expand(const CzSubspace *subspace, const double *number, double
         x[subspace->number[i]] = number[i];
 }
 
+/* Evaluates the designs of a batch and returns their values in the constraints of the search. */
+static CzStatus evaluate_batch(const CzSubspace *subspace, CzBatch *batch, double *objective,
+                               double *constraint, double *detail, CzError *error) {
+    CzReplay *replay = subspace->replay;
+    const char *phase = subspace->search.phase;
+    const int m = subspace->function.n_constraint;
+    const int m_all = cz_evaluator_n_constraint(subspace->evaluator);
+    CZ_TRY(cz_replay_evaluate(replay, batch, error));
+    for (int i = 0; i < batch->n; i++) {
+        objective[i] = batch->objective[i];
+        for (int j = 0; j < m; j++)
+            constraint[i * m + j] = batch->constraint[i * m_all + subspace->constraint[j]];
+        const CzRecord record =
+            cz_search_judge(&subspace->function, phase, objective[i], constraint + i * m);
+        cz_replay_note(replay, &record, batch->x + i * subspace->n_all);
+    }
+    if (detail != NULL)
+        memcpy(detail, batch->detail,
+               (size_t)batch->n * (size_t)subspace->function.n_detail * sizeof *detail);
+    return cz_replay_keep(replay, phase, batch, error);
+}
+
 static CzStatus evaluate_designs(void *data, int n_point, const double *numbers, double *objective,
                                  double *constraint, double *detail, CzError *error) {
     const CzSubspace *subspace = data;
-    const size_t n_all = (size_t)subspace->n_all;
-    CzEvaluation *evaluation = calloc((size_t)n_point, sizeof *evaluation);
-    double *x = calloc((size_t)n_point, n_all * sizeof *x);
-    CzStatus status;
-    if (evaluation == NULL || x == NULL) {
-        status = cz_no_memory(error, "the designs");
-    } else {
-        for (int i = 0; i < n_point; i++)
-            cz_subspace_expand(subspace, numbers + i * subspace->function.n_variable,
-                               x + (size_t)i * n_all);
-        status = cz_evaluator_search(subspace->evaluator, n_point, x, evaluation, detail, error);
-    }
-    for (int i = 0; i < n_point && status == CZ_OK; i++) {
-        const int m = subspace->function.n_constraint;
-        objective[i] = evaluation[i].objective;
-        for (int j = 0; j < m; j++)
-            constraint[i * m + j] = evaluation[i].constraint[subspace->constraint[j]];
-        cz_evaluation_free(&evaluation[i]);
-    }
-    free(evaluation);
-    free(x);
+    CzBatch batch;
+    CzStatus status = cz_batch_create(subspace->replay, n_point, detail != NULL, &batch, error);
+    for (int i = 0; i < n_point && status == CZ_OK; i++)
+        cz_subspace_expand(subspace, numbers + i * subspace->function.n_variable,
+                           batch.x + i * subspace->n_all);
+    if (status == CZ_OK)
+        status = evaluate_batch(subspace, &batch, objective, constraint, detail, error);
+    cz_batch_free(&batch);
     return status;
 }
 
-bool cz_subspace_create(CzEvaluator *evaluator, int combination, const double *start,
-                        CzArena *arena, CzSubspace *subspace) {
+bool cz_subspace_create(CzReplay *replay, int combination, const double *start, CzArena *arena,
+                        CzSubspace *subspace) {
+    CzEvaluator *evaluator = replay->evaluator;
     const int n_all = cz_evaluator_n_variable(evaluator);
     const int n_constraint = cz_evaluator_n_constraint(evaluator);
     const size_t room = (size_t)n_all;
@@ -73,6 +82,7 @@ bool cz_subspace_create(CzEvaluator *evaluator, int combination, const double *s
             shown[m++] = j;
     }
     *subspace = (CzSubspace){.evaluator = evaluator,
+                             .replay = replay,
                              .n_all = n_all,
                              .number = number,
                              .constraint = shown,

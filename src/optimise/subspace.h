@@ -7,15 +7,16 @@
 #define CZ_OPTIMISE_SUBSPACE_H
 
 #include "base/arena.h"
-#include "optimise/search.h"
+#include "optimise/replay.h"
 
 typedef struct CzSubspace {
     CzEvaluator *evaluator;
-    int n_all;       /* variables of the problem */
-    int *number;     /* variables that are not choices and can vary (function.n_variable) */
-    int *constraint; /* constraints of the evaluator in the search: all except the named rules of
-                        files, which one constraint covers (function.n_constraint) */
-    double *made;    /* a design with the choices and fixed values set (n_all) */
+    CzReplay *replay; /* evaluates the designs, shared by all subspaces */
+    int n_all;        /* variables of the problem */
+    int *number;      /* variables that are not choices and can vary (function.n_variable) */
+    int *constraint;  /* constraints of the evaluator in the search: all except the named rules of
+                         files, which one constraint covers (function.n_constraint) */
+    double *made;     /* a design with the choices and fixed values set (n_all) */
     CzFunction function; /* of the numbers alone */
     CzSearch search;     /* over them, begun by the caller */
 } CzSubspace;
@@ -23,8 +24,8 @@ typedef struct CzSubspace {
 /* Fills a subspace; `start` NULL begins at the file's own values, else at these numbers
  * (n_variable). Memory comes from the arena, also the scratch memory of evaluations. False without
  * memory. */
-bool cz_subspace_create(CzEvaluator *evaluator, int combination, const double *start,
-                        CzArena *arena, CzSubspace *subspace);
+bool cz_subspace_create(CzReplay *replay, int combination, const double *start, CzArena *arena,
+                        CzSubspace *subspace);
 
 /* The whole design with these numbers; x is (n_all). */
 void cz_subspace_expand(const CzSubspace *subspace, const double *number, double *x);

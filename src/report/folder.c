@@ -125,7 +125,10 @@ bool cz_folder_holds(const char *folder, const char *file) {
 /* Checks that a folder holds only files of crushzone. */
 static CzStatus check_content(const char *path, bool replaces_search, CzError *error) {
     char foreign[PATH_MAX];
+    errno = 0;
     char *marker = cz_marker_read(path);
+    if (marker == NULL && errno == ENOMEM)
+        return cz_cannot_write(path, errno, error);
     if (marker == NULL && access(path, F_OK) != 0)
         return CZ_OK; /* another process has removed it */
     if (marker == NULL)
@@ -133,19 +136,24 @@ static CzStatus check_content(const char *path, bool replaces_search, CzError *e
                        "the folder %.200s exists and was not written by crushzone; choose "
                        "another one with -o",
                        path);
+    errno = 0;
     const bool has_foreign = find_foreign(path, marker, "", foreign);
+    const bool has_memory = !has_foreign || errno != ENOMEM;
     const bool is_search = cz_marker_lists(marker, "", "outcome.json", '\n');
+    const bool has_journal = cz_marker_lists(marker, "", "history.jsonl", '\n');
     free(marker);
+    if (!has_memory)
+        return cz_cannot_write(path, ENOMEM, error);
     if (has_foreign)
         return cz_fail(error, CZ_STATUS_OUTPUT,
                        "the folder %.150s contains %.150s, which crushzone did not write; move it "
                        "or choose another folder with -o",
                        path, foreign);
-    if (is_search && !replaces_search)
+    if ((is_search || has_journal) && !replaces_search)
         return cz_fail(error, CZ_STATUS_OUTPUT,
-                       "the folder %.150s contains the result of a search; choose another folder "
-                       "with -o, or replace it with --force",
-                       path);
+                       "the folder %.150s contains %s; choose another folder with -o, or replace "
+                       "it with --force",
+                       path, is_search ? "the result of a search" : "a search that has not ended");
     return CZ_OK;
 }
 
@@ -288,8 +296,7 @@ CzStatus cz_folder_check(const char *path, bool replaces_search, CzError *error)
 
 /* ---- writing ---- */
 
-/* Creates the folders above a path. */
-static void make_parents(const char *path) {
+void cz_make_parents(const char *path) {
     char parent[PATH_MAX];
     cz_parent_of(path, parent);
     for (char *slash = strchr(parent + 1, '/'); slash != NULL; slash = strchr(slash + 1, '/')) {
@@ -306,7 +313,7 @@ CzStatus cz_folder_begin(CzFolder *folder, const char *path, bool replaces_searc
     folder->replaces_search = replaces_search;
     CZ_TRY(cz_folder_check(path, replaces_search, error));
     CZ_TRY(clean_path(path, folder->target, error));
-    make_parents(folder->target);
+    cz_make_parents(folder->target);
     cz_parent_of(folder->target, parent);
     int why = cz_temporary_folder(parent, folder->temporary, &folder->marker);
     if (why != 0) {
@@ -376,8 +383,9 @@ CzStatus cz_folder_close(CzFolder *folder, CzError *error) {
     return why == 0 ? CZ_OK : cannot_write(folder, folder->file_name, why, error);
 }
 
-/* Renames an existing folder; `old` is empty when there was none. */
-static CzStatus move_away(CzFolder *folder, char old[PATH_MAX], CzError *error) {
+/* Renames an existing folder and reads its marker while there is memory for it; `old` is empty when
+ * there was none. */
+static CzStatus move_away(CzFolder *folder, char old[PATH_MAX], char **marker, CzError *error) {
     char parent[PATH_MAX];
     struct stat info;
     old[0] = '\0';
@@ -385,7 +393,10 @@ static CzStatus move_away(CzFolder *folder, char old[PATH_MAX], CzError *error) 
     if (lstat(folder->target, &info) != 0)
         return CZ_OK;
     cz_parent_of(folder->target, parent);
-    int why = cz_temporary_name(parent, old);
+    errno = 0;
+    free(*marker);
+    *marker = cz_marker_read(folder->target);
+    int why = *marker == NULL && errno == ENOMEM ? ENOMEM : cz_temporary_name(parent, old);
     if (why == 0) /* so that another process can restore it if this one dies before the end */
         cz_marker_add(folder->target, CZ_MARKER_MOVED, name_of(folder->target));
     if (why == 0 && rename(folder->target, old) == 0)
@@ -397,15 +408,15 @@ static CzStatus move_away(CzFolder *folder, char old[PATH_MAX], CzError *error) 
 
 CzStatus cz_folder_finish(CzFolder *folder, CzError *error) {
     enum { MOST_TRIES = 20 };
-    char old[PATH_MAX] = "";
+    char old[PATH_MAX] = "", *marker = NULL;
     CzStatus status = CZ_OK;
     if (fputs(CZ_MARKER_WHOLE, folder->marker) == EOF || fflush(folder->marker) != 0)
         status = cz_cannot_write(folder->target, errno, error);
     int why = status == CZ_OK ? EEXIST : 0;
     for (int attempt = 0; attempt < MOST_TRIES && (why == EEXIST || why == ENOTEMPTY); attempt++) {
         if (old[0] != '\0') /* another process has written its results meanwhile */
-            cz_remove_listed(old);
-        status = move_away(folder, old, error);
+            cz_remove_files(old, marker);
+        status = move_away(folder, old, &marker, error);
         why = status == CZ_OK && rename(folder->temporary, folder->target) != 0 ? errno : 0;
     }
     if (why != 0)
@@ -414,13 +425,15 @@ CzStatus cz_folder_finish(CzFolder *folder, CzError *error) {
         if (old[0] != '\0')
             (void)rename(old, folder->target);
         cz_folder_abandon(folder);
+        free(marker);
         return status;
     }
     folder->temporary[0] = '\0';
     (void)fclose(folder->marker); /* flushed before; closing releases the lock */
     folder->marker = NULL;
     if (old[0] != '\0')
-        cz_remove_listed(old);
+        cz_remove_files(old, marker);
+    free(marker);
     return CZ_OK;
 }
 

@@ -31,6 +31,9 @@ bool cz_folder_holds(const char *folder, const char *file);
 /* Whether a file is listed in the marker of a result folder. */
 bool cz_folder_lists(const char *file);
 
+/* Creates the folders above a path; a failure shows when something is created in them. */
+void cz_make_parents(const char *path);
+
 /* Begins a folder and creates missing folders above it. After a success the caller ends with
  * cz_folder_finish or cz_folder_abandon. Statuses: CZ_STATUS_OUTPUT, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_folder_begin(CzFolder *folder, const char *path, bool replaces_search,

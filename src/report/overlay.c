@@ -218,15 +218,9 @@ static bool resolve_folder(const char *folder, char resolved[PATH_MAX]) {
     return written > 0 && written < PATH_MAX;
 }
 
-CzStatus cz_overlay_write(const CzReport *report, const char *folder, FILE *stream,
-                          CzError *error) {
+CzStatus cz_overlay_write_design(const CzReport *report, const char *folder, FILE *stream,
+                                 CzError *error) {
     char file[PATH_MAX], from[PATH_MAX], path[PATH_MAX];
-    const CzOutcome *outcome = report->outcome;
-    fprintf(stream, "# The best design of %ld evaluation%s: %s. Verdict of its checks: %s.\n",
-            outcome->n_evaluation, outcome->n_evaluation == 1 ? "" : "s",
-            outcome->best_evaluation.violation <= 0 ? "it satisfies every constraint"
-                                                    : "IT VIOLATES A CONSTRAINT",
-            cz_verdict_text(outcome->best_evaluation.verdict));
     if (cz_report_options_of(report)->text == NULL &&
         realpath(cz_problem_file(report->problem), file) != NULL && resolve_folder(folder, from)) {
         relative_path(from, file, sizeof path, path);
@@ -241,4 +235,15 @@ CzStatus cz_overlay_write(const CzReport *report, const char *folder, FILE *stre
         return cz_fail(error, CZ_STATUS_OUTPUT, "the overlay cannot be written: %s",
                        strerror(errno));
     return CZ_OK;
+}
+
+CzStatus cz_overlay_write(const CzReport *report, const char *folder, FILE *stream,
+                          CzError *error) {
+    const CzOutcome *outcome = report->outcome;
+    fprintf(stream, "# The best design of %ld evaluation%s: %s. Verdict of its checks: %s.\n",
+            outcome->n_evaluation, outcome->n_evaluation == 1 ? "" : "s",
+            outcome->best_evaluation.violation <= 0 ? "it satisfies every constraint"
+                                                    : "IT VIOLATES A CONSTRAINT",
+            cz_verdict_text(outcome->best_evaluation.verdict));
+    return cz_overlay_write_design(report, folder, stream, error);
 }

@@ -21,9 +21,13 @@ CZ_MUST_CHECK CzStatus cz_overlay_read_best(const CzReport *report, CzProblem **
 CZ_MUST_CHECK CzStatus cz_overlay_write_resolved(const CzReport *report, FILE *stream,
                                                  CzError *error);
 
-/* Writes the optimum as a problem file for `folder`: `extends:` the problem's file and `set:` the
- * best values. A problem that came from standard input is written out whole. Statuses:
+/* Writes a design, outcome->best, as a problem file for `folder`: `extends:` the problem's file and
+ * `set:` the best values. A problem that came from standard input is written out whole. Statuses:
  * CZ_STATUS_OUTPUT, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_overlay_write_design(const CzReport *report, const char *folder,
+                                               FILE *stream, CzError *error);
+
+/* Writes the optimum likewise, below a comment with its quality. */
 CZ_MUST_CHECK CzStatus cz_overlay_write(const CzReport *report, const char *folder, FILE *stream,
                                         CzError *error);
 

@@ -12,7 +12,9 @@
 #include "report/page.h"
 #include "report/page_sweep.h"
 #include "report/runs.h"
+#include "report/temporary.h"
 
+#include <errno.h>
 #include <string.h>
 
 /* Everything from which the files are written. */
@@ -35,6 +37,7 @@ typedef enum Content {
     OUTCOME,
     OVERLAY,
     HISTORY,
+    JOURNAL,
     INTERFACES,
     CHANNELS,
     INPUT_FILE,
@@ -92,6 +95,20 @@ static void write_input(const CzSource *input, FILE *stream) {
         fprintf(stream, "%s\n", input->line[i]);
 }
 
+/* Copies the journal of the search. */
+static CzStatus write_journal(const CzReport *report, FILE *stream, CzError *error) {
+    const char *path = cz_report_options_of(report)->journal;
+    char block[1 << 14];
+    FILE *journal = fopen(path, "r");
+    if (journal == NULL)
+        return cz_cannot_write(path, errno, error);
+    for (size_t n; (n = fread(block, 1, sizeof block, journal)) > 0;)
+        (void)fwrite(block, 1, n, stream);
+    const bool is_read = ferror(journal) == 0;
+    fclose(journal);
+    return is_read ? CZ_OK : cz_fail(error, CZ_STATUS_OUTPUT, "%.300s cannot be read", path);
+}
+
 static CzStatus write_report(const Results *results, FILE *stream, CzError *error) {
     const bool is_search = results->report->outcome != NULL && results->is_top;
     CzReport report = is_search ? *results->report : results->run;
@@ -133,6 +150,8 @@ static CzStatus write_content(const Results *results, Content content, FILE *str
     case HISTORY:
         cz_csv_write_history(report, stream);
         break;
+    case JOURNAL:
+        return write_journal(report, stream, error);
     case INTERFACES:
         cz_csv_write_interfaces(cz_kept_run(evaluation, results->scenario), options, stream);
         break;
@@ -222,6 +241,8 @@ static CzStatus write_all(CzFolder *folder, Results *results, CzError *error) {
     if (results->report->kind == CZ_REPORT_SWEEP)
         return write_files(folder, 3, of_sweep, results, error);
     CZ_TRY(write_files(folder, results->report->outcome != NULL ? 7 : 4, files, results, error));
+    if (results->report->outcome != NULL && cz_report_options_of(results->report)->journal != NULL)
+        CZ_TRY(write_file(folder, "history.jsonl", JOURNAL, results, error));
     CZ_TRY(write_profiles(folder, results, error));
     CZ_TRY(write_measured(folder, results, error));
     for (int i = 0; i < results->run.evaluation->n_run; i++)

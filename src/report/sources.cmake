@@ -15,6 +15,8 @@ set(CZ_SOURCES_report
     figure.c
     folder.c
     inputs_text.c
+    journal.c
+    journal_folder.c
     json.c
     markup.c
     options.c

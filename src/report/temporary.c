@@ -163,13 +163,12 @@ static void remove_file(const char *path, const struct stat *info, void *data) {
     (void)unlink(path);
 }
 
-void cz_remove_listed(const char *folder) {
+void cz_remove_files(const char *folder, const char *marker) {
     char path[PATH_MAX];
     cz_marker_add(folder, given_up, ""); /* if this process dies, another one removes the rest */
     cz_each_temporary(folder, remove_file, NULL);
-    char *marker = cz_marker_read(folder);
     for (int pass = 0; pass < 2 && marker != NULL; pass++) /* files, then the folders around them */
-        for (char *line = marker; *line != '\0';) {
+        for (const char *line = marker; *line != '\0';) {
             const size_t n = strcspn(line, "\n"), n_folder = strcspn(line, "/\n");
             const int shown = (int)(pass == 0 ? n : n_folder);
             if (is_inside(line, n) && (pass == 0 || n_folder < n) &&
@@ -177,10 +176,15 @@ void cz_remove_listed(const char *folder) {
                 (void)(pass == 0 ? unlink(path) : rmdir(path));
             line += n + (line[n] == '\n');
         }
-    free(marker);
     if (cz_path_in(path, folder, CZ_MARKER_NAME, NULL) == CZ_OK)
         (void)unlink(path);
     (void)rmdir(folder);
+}
+
+void cz_remove_listed(const char *folder) {
+    char *marker = cz_marker_read(folder);
+    cz_remove_files(folder, marker);
+    free(marker);
 }
 
 /* ---- leftovers ---- */
@@ -248,6 +252,10 @@ static void clear(const char *path, const struct stat *info, void *data) {
         clear_folder(path);
 }
 
+void cz_temporary_clear(const char *folder) {
+    cz_each_temporary(folder, clear, NULL);
+}
+
 /* ---- creation ---- */
 
 /* Creates a new file and locks it. On a system without locks nothing is removed later. EAGAIN:
@@ -270,7 +278,7 @@ static int make_locked(const char *path, FILE **stream) {
 
 int cz_temporary_file(const char *folder, char path[PATH_MAX], FILE **stream) {
     int why = EAGAIN;
-    cz_each_temporary(folder, clear, NULL);
+    cz_temporary_clear(folder);
     for (int attempt = 0; attempt < MOST_TRIES && (why == EAGAIN || why == EEXIST); attempt++) {
         why = cz_temporary_name(folder, path);
         if (why == 0)
@@ -282,7 +290,7 @@ int cz_temporary_file(const char *folder, char path[PATH_MAX], FILE **stream) {
 int cz_temporary_folder(const char *folder, char path[PATH_MAX], FILE **marker) {
     char marker_path[PATH_MAX];
     int why = EAGAIN;
-    cz_each_temporary(folder, clear, NULL);
+    cz_temporary_clear(folder);
     for (int attempt = 0; attempt < MOST_TRIES; attempt++) {
         why = cz_temporary_name(folder, path);
         if (why != 0 || cz_path_in(marker_path, path, CZ_MARKER_NAME, NULL) != CZ_OK)

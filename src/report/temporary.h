@@ -42,6 +42,9 @@ CzStatus cz_cannot_write(const char *path, int why, CzError *error);
 /* A name that is not used yet. */
 int cz_temporary_name(const char *folder, char path[PATH_MAX]);
 
+/* Removes temporary files and folders of dead processes in a folder. */
+void cz_temporary_clear(const char *folder);
+
 /* Creates an empty file in a folder, locked and open for writing; removes temporary files of dead
  * processes there. */
 int cz_temporary_file(const char *folder, char path[PATH_MAX], FILE **stream);
@@ -52,6 +55,8 @@ int cz_temporary_folder(const char *folder, char path[PATH_MAX], FILE **marker);
 /* Removes the files that the marker of a folder lists, temporary files, the marker, then the empty
  * folders. Links are removed, not followed. */
 void cz_remove_listed(const char *folder);
+/* The same with a marker that was read before. */
+void cz_remove_files(const char *folder, const char *marker);
 
 /* Whether a name is that of a temporary file or folder; passes each of these in a folder to `look`.
  */

@@ -1,0 +1,61 @@
+/* The journal of a search: earlier evaluations answer without a run, further ones are kept.
+ *
+ * A search is deterministic given seed and answers, so a search that is repeated with the answers
+ * of its journal continues where the journal ends. Without a journal every design is run.
+ */
+#ifndef CZ_OPTIMISE_REPLAY_H
+#define CZ_OPTIMISE_REPLAY_H
+
+#include "base/arena.h"
+#include "base/index.h"
+#include "optimise/search.h"
+
+typedef struct CzReplay {
+    CzEvaluator *evaluator;
+    const CzJournal *journal; /* NULL when none */
+    CzArena arena;
+    CzIndex earlier;   /* the answers that come in any order */
+    long next;         /* the first answer in order that is still to come */
+    long n_evaluation; /* of the search so far */
+    CzRecord best;     /* of the designs so far that a file may contain */
+    double *best_x;    /* (n_variable) */
+    bool has_best;
+    bool is_best_kept; /* the news had it */
+} CzReplay;
+
+/* `journal` may be NULL. The caller frees the replay in any case. Status: CZ_OK,
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_replay_begin(CzReplay *replay, CzEvaluator *evaluator,
+                                       const CzJournal *journal, CzError *error);
+void cz_replay_free(CzReplay *replay);
+
+/* Designs that are evaluated side by side. x is (n x n_variable), objective (n), constraint (n x
+ * n_constraint) with all constraints of the evaluator, detail (n x cz_evaluator_n_detail) or NULL;
+ * the last three are filled. */
+typedef struct CzBatch {
+    CzArena arena;
+    int n;
+    double *x, *objective, *constraint, *detail;
+    int n_new;                /* designs that were run */
+    int *run;                 /* their numbers (n_new) */
+    CzEvaluation *evaluation; /* (n_new) */
+} CzBatch;
+
+/* Memory for n designs; the caller frees the batch in any case. Status: CZ_OK, CZ_STATUS_NO_MEMORY.
+ */
+CZ_MUST_CHECK CzStatus cz_batch_create(const CzReplay *replay, int n, bool with_detail,
+                                       CzBatch *batch, CzError *error);
+void cz_batch_free(CzBatch *batch);
+
+/* Fills the values of a batch. Statuses: as cz_evaluator_search; CZ_STATUS_INPUT when the journal
+ * has another design. */
+CZ_MUST_CHECK CzStatus cz_replay_evaluate(CzReplay *replay, CzBatch *batch, CzError *error);
+
+/* Notes the record of a design as the best one if it is. */
+void cz_replay_note(CzReplay *replay, const CzRecord *record, const double *x);
+
+/* Keeps the designs of the batch that were run. Statuses: those of CzJournal.keep. */
+CZ_MUST_CHECK CzStatus cz_replay_keep(CzReplay *replay, const char *phase, const CzBatch *batch,
+                                      CzError *error);
+
+#endif

@@ -224,7 +224,7 @@ CzDynamics *cz_dynamics_create(const CzLanes *lanes, CzArena *arena) {
     CzDynamics *dynamics = cz_arena_allocate(arena, 1, sizeof *dynamics);
     if (dynamics == NULL)
         return NULL;
-    const int has_gear = lanes->has_full_cars, has_drag = has_gear || lanes->has_drag;
+    const int has_gear = lanes->has.full_cars, has_drag = has_gear || lanes->has.drag;
     dynamics->lanes = lanes;
     dynamics->n_state = CZ_LANE_BLOCK * (size_t)(has_gear ? CZ_N_DOF : CZ_DOF(bogie[0]));
     dynamics->n_power = CZ_LANE_BLOCK * (size_t)(has_drag ? CZ_N_LEDGER : CZ_LEDGER(end[0]));
@@ -237,4 +237,19 @@ CzDynamics *cz_dynamics_create(const CzLanes *lanes, CzArena *arena) {
         if (!start_block(&dynamics->block[i], lanes, (size_t)i * CZ_LANE_BLOCK, arena))
             return NULL;
     return dynamics;
+}
+
+/* The rows of a block are one piece of memory up to its memories. What rests is found out again. */
+void cz_dynamics_move(CzDynamics *dynamics, size_t lane, const CzDynamics *from, size_t from_lane) {
+    CzBlock *to = cz_block_of(dynamics, lane);
+    const CzBlock *old = cz_block_of(from, from_lane);
+    const size_t i = lane % CZ_LANE_BLOCK, k = from_lane % CZ_LANE_BLOCK;
+    cz_copy_lane(to, i, old, k, offsetof(CzBlock, memories));
+    cz_copy_lane(to->memory, i, old->memory, k, sizeof *to->memory);
+    cz_copy_lane(to->next_memory, i, old->next_memory, k, sizeof *to->next_memory);
+    cz_copy_lane(to->power, i, old->power, k, sizeof *to->power);
+    cz_copy_lane(to->last_power, i, old->last_power, k, sizeof *to->last_power);
+    cz_copy_lane(to->end_peak, i, old->end_peak, k, sizeof to->end_peak);
+    if (dynamics->receptance != NULL)
+        cz_receptance_move(dynamics->receptance, lane, from->receptance, from_lane);
 }

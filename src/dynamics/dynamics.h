@@ -192,9 +192,14 @@ const CzKernel *cz_kernel(const char *isa);
 CzDynamics *cz_dynamics_create(const CzLanes *lanes, CzArena *arena);
 
 /* Lays a track under every car with wheels, at rest under its static loads, for steps of `step`
- * seconds; before the first evaluation. False when there is no memory. */
-bool cz_dynamics_lay_track(CzDynamics *dynamics, const CzTrackModes *modes, CzTrack kind,
+ * seconds; before the first evaluation. Each design has its own modes (n_design); those of tracks
+ * other than `receptance` must be the same for all. False when there is no memory. */
+bool cz_dynamics_lay_track(CzDynamics *dynamics, const CzTrackModes *const *modes, CzTrack kind,
                            double step, CzArena *arena);
+
+/* Copies all that a lane has reached to a lane with the same parameters, on a rigid or a receptance
+ * track. */
+void cz_dynamics_move(CzDynamics *dynamics, size_t lane, const CzDynamics *from, size_t from_lane);
 
 /* Kinetic and elastic energy of the track under each car of a block, half a step ago [J]. */
 void cz_dynamics_track_energy(const CzDynamics *dynamics, int block, CzRow energy);

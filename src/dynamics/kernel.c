@@ -113,14 +113,14 @@ static void divide_full(CzBlock *d) {
 static void evaluate_interfaces(const CzDynamics *dynamics, int index, double step) {
     const CzLanes *lanes = dynamics->lanes;
     CzBlock *d = &dynamics->block[index];
-    if (lanes->has_couplers)
+    if (lanes->has.couplers)
         couplers(d, step);
     faces(dynamics, index, step);
-    if (lanes->has_side_buffers)
+    if (lanes->has.side_buffers)
         side_buffers(d, step);
-    if (lanes->has_superstructures)
+    if (lanes->has.superstructures)
         superstructures(d);
-    if (lanes->has_draw_gears)
+    if (lanes->has.draw_gears)
         draw_gears(d);
 }
 
@@ -145,7 +145,7 @@ static void evaluate_cars(const CzDynamics *dynamics, int index, double step) {
         else
             press_on_rigid(d, axle);
         wheel(d, axle, step);
-        if (dynamics->lanes->has_rolling)
+        if (dynamics->lanes->has.rolling)
             roll(d, axle);
     }
 }
@@ -155,7 +155,7 @@ static void begin_block(const CzDynamics *dynamics, CzBlock *d) {
     clear(dynamics, d);
     if (d->budget != NULL)
         clear_rows(d->budget, sizeof *d->budget);
-    if (dynamics->lanes->has_full_cars)
+    if (dynamics->lanes->has.full_cars)
         rotations(d);
 }
 
@@ -163,13 +163,13 @@ static void begin_block(const CzDynamics *dynamics, CzBlock *d) {
 static void end_block(const CzDynamics *dynamics, int index, double step) {
     CzBlock *d = &dynamics->block[index];
     take_over(dynamics, index);
-    if (dynamics->lanes->has_full_cars)
+    if (dynamics->lanes->has.full_cars)
         evaluate_cars(dynamics, index, step);
     push_bodies(&d->force.body, &d->from_behind);
-    if (dynamics->lanes->has_drag)
+    if (dynamics->lanes->has.drag)
         drag(d);
     divide_along(d);
-    if (dynamics->lanes->has_full_cars)
+    if (dynamics->lanes->has.full_cars)
         divide_full(d);
 }
 

@@ -136,23 +136,23 @@ static void extremes(const CzLanes *lanes, CzBlock *d, double time) {
     CzExtremes *kept = &d->extreme;
     interface_extremes(d, time);
     face_extremes(d, time);
-    if (lanes->has_couplers) {
+    if (lanes->has.couplers) {
         underframe_extremes(d);
         coupler_extremes(d);
     }
-    if (lanes->has_side_buffers)
+    if (lanes->has.side_buffers)
         side_buffer_extremes(d);
-    if (lanes->has_superstructures)
+    if (lanes->has.superstructures)
         keep_larger(kept->superstructure_force, d->published.superstructure.force);
-    if (lanes->has_draw_gears)
+    if (lanes->has.draw_gears)
         keep_larger_size(kept->draw_gear_force, d->published.draw_gear.force);
     for (int end = 0; end < 2; ++end)
         keep_larger(kept->section[end], d->published.section[end]);
     keep_larger_size(kept->body_acceleration, d->acceleration.body.x);
     chain_extremes(d);
-    if (lanes->has_full_cars)
+    if (lanes->has.full_cars)
         car_extremes(d, time);
-    if (lanes->has_drag) {
+    if (lanes->has.drag) {
         keep_larger_size(kept->slide_travel, d->position.body.x);
         keep_larger(kept->slide_force, d->published.slide_force);
     }

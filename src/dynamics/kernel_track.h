@@ -31,8 +31,9 @@ static void look_under(const CzTrackMotion *track, const CzTrackUnder *under, Cz
     cz_track_shapes(track, place, under->shape, seat);
     for (int axle = 0; axle < 4; ++axle)
         put_rail(&d->rail[axle], lane,
-                 cz_track_on_spring(&track->flexibility, track->per_spacing,
-                                    cz_track_at(track, under, axle), seat[axle]));
+                 cz_track_on_spring(track->flexibility.corner, track->flexibility.term, 1,
+                                    track->per_spacing, cz_track_at(track, under, axle),
+                                    seat[axle]));
 }
 
 /* Reads the rails under the wheels of a block at their present places. */
@@ -68,27 +69,17 @@ static void look_at_receptance(const CzReceptanceMotion *track, CzBlock *d, int 
                                                                    d->parameter.axle_x;
         const double *restrict x = d->position.wheelset[axle].x;
         const double *restrict z = under->z[axle], *restrict past = under->past[axle];
-        _Alignas(64) CzRow seat_re, seat_im;
+        const double *restrict per_spacing = under->per_spacing, *restrict corner = under->corner;
+        const double *restrict term = under->term[0];
         CZ_LANES (i) {
             const double place = cz_wheel_place(bogie_x[i], axle_x[i], axle) + x[i];
-            const CzComplex seat = cz_turned(place * track->per_spacing);
-            seat_re[i] = seat.re;
-            seat_im[i] = seat.im;
+            const CzRailPoint point =
+                cz_track_on_spring(corner[i], term + i, CZ_LANE_BLOCK, per_spacing[i],
+                                   (CzRailPoint){.z = 0.0}, cz_turned(place * per_spacing[i]));
             rail->z[i] = z[i];
             rail->past[i] = past[i];
-            rail->flexibility[i] = 0.0;
-            rail->flexibility_slope[i] = 0.0;
-        }
-        for (int k = 0; k < under->n_part; ++k) {
-            const CzTrackFlexibility *flexibility = &under->part[k].steps->flexibility;
-            const double *restrict is_under = under->part[k].is_under;
-            CZ_LANES (i) {
-                const CzRailPoint point =
-                    cz_track_on_spring(flexibility, track->per_spacing, (CzRailPoint){.z = 0.0},
-                                       (CzComplex){seat_re[i], seat_im[i]});
-                rail->flexibility[i] += is_under[i] * point.flexibility;
-                rail->flexibility_slope[i] += is_under[i] * point.flexibility_slope;
-            }
+            rail->flexibility[i] = point.flexibility;
+            rail->flexibility_slope[i] = point.flexibility_slope;
         }
     }
 }
@@ -142,46 +133,70 @@ static void advance_elements(CzElements *elements, CzBlock *d, int block) {
     }
 }
 
-/* Advances n modes by one step under a force; adds their deflection. */
-static void advance_pair(const CzPairStep *mode, int n, const double *restrict force, CzRow *state,
+/* Advances the state y of a mode in one lane by one step under a force; adds its deflection. */
+static inline void advance_mode(CzComplex flight, CzComplex kick, CzComplex now, CzComplex past,
+                                double force, double *re, double *im, double *sum_now,
+                                double *sum_past) {
+    const double kicked_re = *re + kick.re * force;
+    const double kicked_im = *im + kick.im * force;
+    *re = flight.re * kicked_re - flight.im * kicked_im;
+    *im = flight.re * kicked_im + flight.im * kicked_re;
+    *sum_now += now.re * *re - now.im * *im;
+    *sum_past += past.re * *re - past.im * *im;
+}
+
+/* The same for n modes in all lanes, which are on the same track. */
+static void advance_same(const CzPairStep *mode, int n, const double *restrict force, CzRow *state,
                          double *restrict now, double *restrict past) {
     for (int k = 0; k < n; ++k) {
         const CzPairStep m = mode[k];
         double *restrict re = state[2 * k], *restrict im = state[2 * k + 1];
         CZ_LANES (i) {
-            const double kicked_re = re[i] + m.kick.re * force[i];
-            const double kicked_im = im[i] + m.kick.im * force[i];
-            re[i] = m.flight.re * kicked_re - m.flight.im * kicked_im;
-            im[i] = m.flight.re * kicked_im + m.flight.im * kicked_re;
-            now[i] += m.now.re * re[i] - m.now.im * im[i];
-            past[i] += m.past.re * re[i] - m.past.im * im[i];
+            advance_mode(m.flight, m.kick, m.now, m.past, force[i], &re[i], &im[i], &now[i],
+                         &past[i]);
         }
     }
 }
 
-/* Advances a bogie's modes of all parts of a block by one step. */
+/* The same where the lanes are on several tracks. */
+static void advance_mixed(const CzPairStepRows *mode, int n, const double *restrict force,
+                          CzRow *state, double *restrict now, double *restrict past) {
+    for (int k = 0; k < n; ++k) {
+        const CzPairStepRows *restrict m = &mode[k];
+        double *restrict re = state[2 * k], *restrict im = state[2 * k + 1];
+        CZ_LANES (i) {
+            advance_mode((CzComplex){m->flight_re[i], m->flight_im[i]},
+                         (CzComplex){m->kick_re[i], m->kick_im[i]},
+                         (CzComplex){m->now_re[i], m->now_im[i]},
+                         (CzComplex){m->past_re[i], m->past_im[i]}, force[i], &re[i], &im[i],
+                         &now[i], &past[i]);
+        }
+    }
+}
+
+/* Advances the modes under the bogies of a block by one step. */
 static void advance_bogie(CzReceptanceBlock *under, int bogie, const double *restrict rear,
                           const double *restrict front) {
     _Alignas(64) CzRow now[CZ_N_PAIR_MOTION] = {{0.0}}, past[CZ_N_PAIR_MOTION] = {{0.0}};
-    for (int k = 0; k < under->n_part; ++k) {
-        const CzReceptancePart *part = &under->part[k];
-        const int *n = part->steps->n;
-        const double *restrict is_under = part->is_under;
-        _Alignas(64) CzRow bounce, pitch;
-        CZ_LANES (i) {
-            bounce[i] = -0.5 * is_under[i] * (rear[i] + front[i]);
-            pitch[i] = -0.5 * is_under[i] * (rear[i] - front[i]);
-        }
-        CzRow *state = part->state + 2 * bogie * (n[0] + n[1]);
-        advance_pair(part->steps->mode[CZ_PAIR_BOUNCE], n[0], bounce, state, now[0], past[0]);
-        advance_pair(part->steps->mode[CZ_PAIR_PITCH], n[1], pitch, state + 2 * n[0], now[1],
-                     past[1]);
+    _Alignas(64) CzRow force[CZ_N_PAIR_MOTION];
+    CZ_LANES (i) {
+        force[CZ_PAIR_BOUNCE][i] = -0.5 * (rear[i] + front[i]);
+        force[CZ_PAIR_PITCH][i] = -0.5 * (rear[i] - front[i]);
+    }
+    for (int motion = 0; motion < CZ_N_PAIR_MOTION; ++motion) {
+        CzRow *state = under->state[bogie][motion];
+        if (under->same != NULL)
+            advance_same(under->same->mode[motion], under->n[motion], force[motion], state,
+                         now[motion], past[motion]);
+        else
+            advance_mixed(under->mode[motion], under->n[motion], force[motion], state, now[motion],
+                          past[motion]);
     }
     CZ_LANES (i) {
-        under->z[2 * bogie][i] = now[0][i] + now[1][i];
-        under->z[2 * bogie + 1][i] = now[0][i] - now[1][i];
-        under->past[2 * bogie][i] = past[0][i] + past[1][i];
-        under->past[2 * bogie + 1][i] = past[0][i] - past[1][i];
+        under->z[2 * bogie][i] = now[CZ_PAIR_BOUNCE][i] + now[CZ_PAIR_PITCH][i];
+        under->z[2 * bogie + 1][i] = now[CZ_PAIR_BOUNCE][i] - now[CZ_PAIR_PITCH][i];
+        under->past[2 * bogie][i] = past[CZ_PAIR_BOUNCE][i] + past[CZ_PAIR_PITCH][i];
+        under->past[2 * bogie + 1][i] = past[CZ_PAIR_BOUNCE][i] - past[CZ_PAIR_PITCH][i];
     }
 }
 

@@ -41,17 +41,17 @@ static bool lay_elements(CzDynamics *dynamics, size_t lane, Standing *standing, 
     return true;
 }
 
-static bool lay_receptance(CzDynamics *dynamics, size_t lane, Standing *standing, CzArena *arena) {
+static void lay_receptance(CzDynamics *dynamics, size_t lane, const CzTrackModes *modes,
+                           Standing *standing) {
     const CzBlock *block = cz_block_of(dynamics, lane);
     const double axle_spacing = 2.0 * block->parameter.axle_x[lane % CZ_LANE_BLOCK];
-    if (!cz_receptance_lay(dynamics->receptance, lane, axle_spacing, standing->load, arena))
-        return false;
+    cz_receptance_lay(dynamics->receptance, lane, modes, axle_spacing, standing->load);
     cz_receptance_look(dynamics->receptance, lane, standing->place, standing->deflection,
                        standing->flexibility);
-    return true;
 }
 
-static bool lay_under(CzDynamics *dynamics, size_t lane, CzArena *arena) {
+static bool lay_under(CzDynamics *dynamics, size_t lane, const CzTrackModes *modes,
+                      CzArena *arena) {
     CzBlock *block = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;
     if (!has_wheels(block, i))
@@ -61,8 +61,8 @@ static bool lay_under(CzDynamics *dynamics, size_t lane, CzArena *arena) {
         return false;
     if (dynamics->elements != NULL && !lay_elements(dynamics, lane, &standing, arena))
         return false;
-    if (dynamics->receptance != NULL && !lay_receptance(dynamics, lane, &standing, arena))
-        return false;
+    if (dynamics->receptance != NULL)
+        lay_receptance(dynamics, lane, modes, &standing);
     for (int axle = 0; axle < 4; ++axle)
         block->constant.wheel_rest[axle][i] = block->parameter.wheel.indentation[axle][i] +
                                               standing.flexibility[axle] * standing.load[axle] -
@@ -70,19 +70,20 @@ static bool lay_under(CzDynamics *dynamics, size_t lane, CzArena *arena) {
     return true;
 }
 
-static bool make_track(CzDynamics *dynamics, const CzTrackModes *modes, CzTrack kind, double step,
-                       CzArena *arena) {
+static bool make_track(CzDynamics *dynamics, const CzTrackModes *const *modes, CzTrack kind,
+                       double step, CzArena *arena) {
     const size_t n_lane = (size_t)dynamics->n_block * CZ_LANE_BLOCK;
     switch (kind) {
     case CZ_TRACK_MODAL:
-        dynamics->track = cz_track_motion_create(modes, step, n_lane, arena);
+        dynamics->track = cz_track_motion_create(modes[0], step, n_lane, arena);
         return dynamics->track != NULL;
     case CZ_TRACK_FE:
-        dynamics->elements =
-            cz_elements_create(&modes->seats, modes->nodes, modes->span, step, n_lane, arena);
+        dynamics->elements = cz_elements_create(&modes[0]->seats, modes[0]->nodes, modes[0]->span,
+                                                step, n_lane, arena);
         return dynamics->elements != NULL;
     case CZ_TRACK_RECEPTANCE:
-        dynamics->receptance = cz_receptance_create(modes, step, dynamics->n_block, arena);
+        dynamics->receptance =
+            cz_receptance_create(modes, dynamics->lanes->n_design, step, dynamics->n_block, arena);
         return dynamics->receptance != NULL;
     case CZ_TRACK_RIGID:
         break;
@@ -90,15 +91,15 @@ static bool make_track(CzDynamics *dynamics, const CzTrackModes *modes, CzTrack 
     return true;
 }
 
-bool cz_dynamics_lay_track(CzDynamics *dynamics, const CzTrackModes *modes, CzTrack kind,
+bool cz_dynamics_lay_track(CzDynamics *dynamics, const CzTrackModes *const *modes, CzTrack kind,
                            double step, CzArena *arena) {
-    const size_t n_lane = (size_t)dynamics->n_block * CZ_LANE_BLOCK;
+    const size_t n_design = (size_t)dynamics->lanes->n_design;
     if (!make_track(dynamics, modes, kind, step, arena))
         return false;
     if (kind == CZ_TRACK_RIGID)
         return true;
-    for (size_t lane = 0; lane < n_lane; ++lane)
-        if (!lay_under(dynamics, lane, arena))
+    for (size_t lane = 0; lane < n_design * (size_t)dynamics->lanes->n_car; ++lane)
+        if (!lay_under(dynamics, lane, modes[lane % n_design], arena))
             return false;
     for (int i = 0; i < dynamics->n_block; ++i)
         cz_dynamics_track_energy(dynamics, i, dynamics->block[i].rail_rest_energy);

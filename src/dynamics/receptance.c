@@ -20,6 +20,7 @@ static CzPairStep step_of(const CzPairMode *mode, double step) {
 
 static void fill_steps(const CzTrackModes *modes, const CzReceptance *receptance, double step,
                        CzReceptanceSteps *steps) {
+    steps->modes = modes;
     steps->receptance = receptance;
     steps->flexibility = cz_receptance_flexibility(modes, receptance, step);
     for (int motion = 0; motion < CZ_N_PAIR_MOTION; motion++) {
@@ -29,56 +30,57 @@ static void fill_steps(const CzTrackModes *modes, const CzReceptance *receptance
     }
 }
 
-CzReceptanceMotion *cz_receptance_create(const CzTrackModes *modes, double step, int n_block,
-                                         CzArena *arena) {
+/* Whether a track is among the first n. */
+static bool is_among(const CzTrackModes *const *modes, int n, const CzTrackModes *track) {
+    for (int i = 0; i < n; i++)
+        if (modes[i] == track)
+            return true;
+    return false;
+}
+
+/* Space for as many modes as any of the receptances has. */
+static void make_room(const CzReceptanceMotion *track, int n_block, CzArena *arena) {
+    for (int motion = 0; motion < CZ_N_PAIR_MOTION; motion++) {
+        size_t most = 0;
+        for (int i = 0; i < track->n_steps; i++)
+            most =
+                (size_t)track->steps[i].n[motion] > most ? (size_t)track->steps[i].n[motion] : most;
+        for (int i = 0; i < n_block; i++) {
+            CzReceptanceBlock *block = &track->block[i];
+            block->mode[motion] = cz_arena_allocate(arena, most, sizeof *block->mode[motion]);
+            for (int bogie = 0; bogie < 2; bogie++)
+                block->state[bogie][motion] =
+                    cz_arena_allocate(arena, 2 * most, sizeof *block->state[bogie][motion]);
+        }
+    }
+}
+
+CzReceptanceMotion *cz_receptance_create(const CzTrackModes *const *modes, int n, double step,
+                                         int n_block, CzArena *arena) {
+    size_t most = 0;
+    for (int i = 0; i < n; i++)
+        most += (size_t)modes[i]->n_receptance;
     CzReceptanceMotion *track = cz_arena_allocate(arena, 1, sizeof *track);
-    CzReceptanceSteps *steps = cz_arena_allocate(arena, (size_t)modes->n_receptance, sizeof *steps);
+    CzReceptanceSteps *steps = cz_arena_allocate(arena, most, sizeof *steps);
     CzReceptanceBlock *block = cz_arena_allocate(arena, (size_t)n_block, sizeof *block);
     if (arena->out_of_memory)
         return NULL;
-    for (int i = 0; i < modes->n_receptance; i++)
-        fill_steps(modes, &modes->receptance[i], step, &steps[i]);
-    *track = (CzReceptanceMotion){.per_spacing = 1.0 / modes->seats.spacing,
-                                  .n_steps = modes->n_receptance,
-                                  .steps = steps,
-                                  .block = block};
-    return track;
+    *track = (CzReceptanceMotion){.steps = steps, .block = block};
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < modes[i]->n_receptance && !is_among(modes, i, modes[i]); k++)
+            fill_steps(modes[i], &modes[i]->receptance[k], step, &steps[track->n_steps++]);
+    make_room(track, n_block, arena);
+    return arena->out_of_memory ? NULL : track;
 }
 
 /* ---- one car --------------------------------------------------------------------------------- */
 
-/* States of one motion of a bogie. */
-static CzRow *states_of(const CzReceptancePart *part, int bogie, int motion) {
-    const int *n = part->steps->n;
-    return part->state + 2 * (bogie * (n[0] + n[1]) + (motion == CZ_PAIR_PITCH ? n[0] : 0));
-}
-
-static const CzReceptancePart *part_under(const CzReceptanceBlock *block, size_t i) {
-    for (int k = 0; k < block->n_part; k++)
-        if (block->part[k].is_under[i] != 0.0)
-            return &block->part[k];
-    return NULL;
-}
-
-/* The part of a block for an axle spacing, created when missing. */
-static CzReceptancePart *part_for(const CzReceptanceMotion *track, CzReceptanceBlock *block,
-                                  double axle_spacing, CzArena *arena) {
-    for (int k = 0; k < block->n_part; k++)
-        if (block->part[k].steps->receptance->axle_spacing == axle_spacing)
-            return &block->part[k];
-    int i = 0;
-    while (track->steps[i].receptance->axle_spacing != axle_spacing)
-        i++;
-    if (block->part == NULL)
-        block->part = cz_arena_allocate(arena, CZ_LANE_BLOCK, sizeof *block->part);
-    if (block->part == NULL)
-        return NULL;
-    CzReceptancePart *part = &block->part[block->n_part];
-    const int *n = track->steps[i].n;
-    part->steps = &track->steps[i];
-    part->state = cz_arena_allocate(arena, 4 * (size_t)(n[0] + n[1]), sizeof *part->state);
-    block->n_part += part->state != NULL;
-    return part->state != NULL ? part : NULL;
+static const CzReceptanceSteps *steps_for(const CzReceptanceMotion *track,
+                                          const CzTrackModes *modes, double axle_spacing) {
+    const CzReceptanceSteps *steps = track->steps;
+    while (steps->modes != modes || steps->receptance->axle_spacing != axle_spacing)
+        steps++;
+    return steps;
 }
 
 /* Force on each wheel of a bogie in bounce or pitch. */
@@ -93,15 +95,15 @@ static void add_deflection(double deflection, int motion, double *rear, double *
 }
 
 /* Deflections of a lane from its states. */
-static void read_states(CzReceptanceBlock *block, const CzReceptancePart *part, size_t i) {
+static void read_states(CzReceptanceBlock *block, size_t i) {
     for (int wheel = 0; wheel < 4; wheel++)
         block->z[wheel][i] = block->past[wheel][i] = 0.0;
     for (int bogie = 0; bogie < 2; bogie++)
         for (int motion = 0; motion < CZ_N_PAIR_MOTION; motion++) {
-            const CzRow *state = states_of(part, bogie, motion);
+            const CzRow *state = block->state[bogie][motion];
             double now = 0.0, past = 0.0;
-            for (int k = 0; k < part->steps->n[motion]; k++) {
-                const CzPairStep *mode = &part->steps->mode[motion][k];
+            for (int k = 0; k < block->under[i]->n[motion]; k++) {
+                const CzPairStep *mode = &block->under[i]->mode[motion][k];
                 const CzComplex y = {state[2 * k][i], state[2 * k + 1][i]};
                 now += cz_complex_product(mode->now, y).re;
                 past += cz_complex_product(mode->past, y).re;
@@ -112,49 +114,88 @@ static void read_states(CzReceptanceBlock *block, const CzReceptancePart *part, 
         }
 }
 
-bool cz_receptance_lay(CzReceptanceMotion *track, size_t lane, double axle_spacing,
-                       const double load[4], CzArena *arena) {
+/* Copies the numbers of a track to a lane. */
+static void put_steps(CzReceptanceBlock *block, size_t i, const CzReceptanceSteps *steps) {
+    const bool is_first = block->n[0] + block->n[1] == 0;
+    block->same = is_first || block->same == steps ? steps : NULL;
+    block->under[i] = steps;
+    block->per_spacing[i] = 1.0 / steps->modes->seats.spacing;
+    block->corner[i] = steps->flexibility.corner;
+    for (int k = 0; k < CZ_TRACK_FLEX_TERMS; k++)
+        block->term[k][i] = steps->flexibility.term[k];
+    for (int motion = 0; motion < CZ_N_PAIR_MOTION; motion++) {
+        const int n = steps->n[motion];
+        block->n[motion] = n > block->n[motion] ? n : block->n[motion];
+        for (int k = 0; k < n; k++) {
+            const CzPairStep *mode = &steps->mode[motion][k];
+            CzPairStepRows *rows = &block->mode[motion][k];
+            rows->flight_re[i] = mode->flight.re;
+            rows->flight_im[i] = mode->flight.im;
+            rows->kick_re[i] = mode->kick.re;
+            rows->kick_im[i] = mode->kick.im;
+            rows->now_re[i] = mode->now.re;
+            rows->now_im[i] = mode->now.im;
+            rows->past_re[i] = mode->past.re;
+            rows->past_im[i] = mode->past.im;
+        }
+    }
+}
+
+void cz_receptance_lay(CzReceptanceMotion *track, size_t lane, const CzTrackModes *modes,
+                       double axle_spacing, const double load[4]) {
     CzReceptanceBlock *block = &track->block[lane / CZ_LANE_BLOCK];
     const size_t i = lane % CZ_LANE_BLOCK;
-    CzReceptancePart *part = part_for(track, block, axle_spacing, arena);
-    if (part == NULL)
-        return false;
-    part->is_under[i] = 1.0;
+    const CzReceptanceSteps *steps = steps_for(track, modes, axle_spacing);
+    put_steps(block, i, steps);
     for (int bogie = 0; bogie < 2; bogie++)
         for (int motion = 0; motion < CZ_N_PAIR_MOTION; motion++) {
             const double force = -force_of(load + 2 * bogie, motion);
-            CzRow *state = states_of(part, bogie, motion);
-            for (int k = 0; k < part->steps->n[motion]; k++) {
-                const CzComplex y = cz_complex_scaled(force, part->steps->mode[motion][k].rest);
+            CzRow *state = block->state[bogie][motion];
+            for (int k = 0; k < steps->n[motion]; k++) {
+                const CzComplex y = cz_complex_scaled(force, steps->mode[motion][k].rest);
                 state[2 * k][i] = y.re;
                 state[2 * k + 1][i] = y.im;
             }
         }
-    read_states(block, part, i);
-    return true;
+    read_states(block, i);
+}
+
+void cz_receptance_move(CzReceptanceMotion *track, size_t lane, const CzReceptanceMotion *from,
+                        size_t from_lane) {
+    CzReceptanceBlock *to = &track->block[lane / CZ_LANE_BLOCK];
+    const CzReceptanceBlock *old = &from->block[from_lane / CZ_LANE_BLOCK];
+    const size_t i = lane % CZ_LANE_BLOCK, k = from_lane % CZ_LANE_BLOCK;
+    for (int bogie = 0; bogie < 2 && to->under[i] != NULL; bogie++)
+        for (int motion = 0; motion < CZ_N_PAIR_MOTION; motion++)
+            cz_copy_lane(to->state[bogie][motion], i, old->state[bogie][motion], k,
+                         2 * (size_t)to->under[i]->n[motion] * sizeof(CzRow));
+    cz_copy_lane(to->z, i, old->z, k, sizeof to->z);
+    cz_copy_lane(to->past, i, old->past, k, sizeof to->past);
 }
 
 void cz_receptance_look(const CzReceptanceMotion *track, size_t lane, const double place[4],
                         double deflection[4], double flexibility[4]) {
     const CzReceptanceBlock *block = &track->block[lane / CZ_LANE_BLOCK];
     const size_t i = lane % CZ_LANE_BLOCK;
-    const CzReceptanceSteps *steps = part_under(block, i)->steps;
     for (int wheel = 0; wheel < 4; wheel++) {
         deflection[wheel] = block->z[wheel][i];
         flexibility[wheel] = cz_track_flexibility_at(
-            &steps->flexibility, cz_turned(place[wheel] * track->per_spacing).re);
+            &block->under[i]->flexibility, cz_turned(place[wheel] * block->per_spacing[i]).re);
     }
 }
 
-/* Adds the energy that the modes of one motion of a bogie can return, half a step ago, in all lanes
- * of a part. */
-static void add_stored(const CzReceptancePart *part, int bogie, int motion, CzRow energy) {
-    const CzRow *state = states_of(part, bogie, motion);
-    const double *storage = part->steps->receptance->motion[motion].storage;
-    const int n = part->steps->n[motion];
-    CzRow x[2 * CZ_MOST_PAIR_MODES];
+/* Adds the energy that the modes of one motion of a bogie can return, half a step ago, in the lanes
+ * on one track. */
+static void add_stored(const CzReceptanceBlock *block, const CzReceptanceSteps *steps, int bogie,
+                       int motion, CzRow energy) {
+    const CzRow *state = block->state[bogie][motion];
+    const double *storage = steps->receptance->motion[motion].storage;
+    const int n = steps->n[motion];
+    CzRow is_under, x[2 * CZ_MOST_PAIR_MODES];
+    for (int i = 0; i < CZ_LANE_BLOCK; i++)
+        is_under[i] = block->under[i] == steps ? 1.0 : 0.0;
     for (int k = 0; k < n; k++) {
-        const CzComplex back = part->steps->mode[motion][k].back;
+        const CzComplex back = steps->mode[motion][k].back;
         for (int i = 0; i < CZ_LANE_BLOCK; i++) {
             const CzComplex now = {state[2 * k][i], state[2 * k + 1][i]};
             const CzComplex past = cz_complex_product(back, now);
@@ -170,53 +211,66 @@ static void add_stored(const CzReceptancePart *part, int bogie, int motion, CzRo
             for (int i = 0; i < CZ_LANE_BLOCK; i++)
                 product[i] += storage[2 * n * k + j] * x[j][i];
         for (int i = 0; i < CZ_LANE_BLOCK; i++)
-            energy[i] += 4.0 * part->is_under[i] * x[k][i] * product[i]; /* of two wheels */
+            energy[i] += 4.0 * is_under[i] * x[k][i] * product[i]; /* of two wheels */
     }
+}
+
+/* Whether no lane before lane i is on the same track. */
+static bool is_first(const CzReceptanceBlock *block, int i) {
+    for (int k = 0; k < i; k++)
+        if (block->under[k] == block->under[i])
+            return false;
+    return true;
 }
 
 void cz_receptance_energy(const CzReceptanceMotion *track, int block, CzRow energy) {
     const CzReceptanceBlock *under = &track->block[block];
     for (int i = 0; i < CZ_LANE_BLOCK; i++)
         energy[i] = 0.0;
-    for (int k = 0; k < under->n_part; k++)
+    for (int i = 0; i < CZ_LANE_BLOCK; i++) {
+        if (under->under[i] == NULL || !is_first(under, i))
+            continue;
         for (int bogie = 0; bogie < 2; bogie++)
             for (int motion = 0; motion < CZ_N_PAIR_MOTION; motion++)
-                add_stored(&under->part[k], bogie, motion, energy);
+                add_stored(under, under->under[i], bogie, motion, energy);
+    }
 }
 
 /* ---- for a solver of ordinary differential equations ----------------------------------------- */
 
 size_t cz_receptance_n_state(const CzReceptanceMotion *track, size_t lane) {
-    const CzReceptancePart *part =
-        part_under(&track->block[lane / CZ_LANE_BLOCK], lane % CZ_LANE_BLOCK);
-    return part == NULL ? 0 : 4 * (size_t)(part->steps->n[0] + part->steps->n[1]);
+    const CzReceptanceSteps *steps = track->block[lane / CZ_LANE_BLOCK].under[lane % CZ_LANE_BLOCK];
+    return steps == NULL ? 0 : 4 * (size_t)(steps->n[0] + steps->n[1]);
 }
 
 void cz_receptance_get_state(const CzReceptanceMotion *track, size_t lane, double *state) {
-    const size_t i = lane % CZ_LANE_BLOCK, n = cz_receptance_n_state(track, lane);
-    const CzReceptancePart *part = part_under(&track->block[lane / CZ_LANE_BLOCK], i);
-    for (size_t k = 0; k < n; k++)
-        state[k] = part->state[k][i];
+    const CzReceptanceBlock *block = &track->block[lane / CZ_LANE_BLOCK];
+    const size_t i = lane % CZ_LANE_BLOCK;
+    for (int bogie = 0; bogie < 2; bogie++)
+        for (int motion = 0; motion < CZ_N_PAIR_MOTION; motion++)
+            for (int k = 0; k < 2 * block->under[i]->n[motion]; k++)
+                *state++ = block->state[bogie][motion][k][i];
 }
 
 void cz_receptance_set_state(CzReceptanceMotion *track, size_t lane, const double *state) {
     CzReceptanceBlock *block = &track->block[lane / CZ_LANE_BLOCK];
-    const size_t i = lane % CZ_LANE_BLOCK, n = cz_receptance_n_state(track, lane);
-    const CzReceptancePart *part = part_under(block, i);
-    for (size_t k = 0; k < n; k++)
-        part->state[k][i] = state[k];
-    read_states(block, part, i);
+    const size_t i = lane % CZ_LANE_BLOCK;
+    for (int bogie = 0; bogie < 2; bogie++)
+        for (int motion = 0; motion < CZ_N_PAIR_MOTION; motion++)
+            for (int k = 0; k < 2 * block->under[i]->n[motion]; k++)
+                block->state[bogie][motion][k][i] = *state++;
+    read_states(block, i);
 }
 
 void cz_receptance_rate(const CzReceptanceMotion *track, size_t lane, const double force[4],
                         double *rate, double rail_rate[4]) {
     const size_t i = lane % CZ_LANE_BLOCK;
-    const CzReceptancePart *part = part_under(&track->block[lane / CZ_LANE_BLOCK], i);
+    const CzReceptanceBlock *block = &track->block[lane / CZ_LANE_BLOCK];
     memset(rail_rate, 0, 4 * sizeof *rail_rate);
     for (int bogie = 0; bogie < 2; bogie++)
         for (int motion = 0; motion < CZ_N_PAIR_MOTION; motion++) {
-            const struct CzPairModes *modes = &part->steps->receptance->motion[motion];
-            const CzRow *state = states_of(part, bogie, motion);
+            const struct CzPairModes *modes = &block->under[i]->receptance->motion[motion];
+            const CzRow *state = block->state[bogie][motion];
             const double own = force_of(force + 2 * bogie, motion);
             double deflection = 0.0;
             for (int k = 0; k < modes->n; k++, rate += 2) {

@@ -17,46 +17,53 @@ typedef struct CzPairStep {
     CzComplex back;   /* state half a step ago per state */
 } CzPairStep;
 
-/* Track under bogies of one axle spacing. */
+/* A track under bogies of one axle spacing. */
 typedef struct CzReceptanceSteps {
-    const CzReceptance *receptance; /* borrowed */
+    const CzTrackModes *modes;      /* borrowed, as is the next */
+    const CzReceptance *receptance; /* fitted to the modes */
     int n[CZ_N_PAIR_MOTION];
     CzPairStep mode[CZ_N_PAIR_MOTION][CZ_MOST_PAIR_MODES];
     CzTrackFlexibility flexibility; /* under a wheel, in addition to the modes */
 } CzReceptanceSteps;
 
-/* Track under the cars of a block that have bogies of one axle spacing; all other lanes stay at
- * zero. */
-typedef struct CzReceptancePart {
-    const CzReceptanceSteps *steps;
-    CzRow *state; /* real and imaginary parts in turn: bounce and pitch of the rear bogie, then of
-                     the front one */
-    _Alignas(64) CzRow is_under; /* 1 where it is under a car, else 0 */
-} CzReceptancePart;
+/* The numbers of a mode in the lanes of a block whose tracks differ; 0 in lanes without it. */
+typedef struct CzPairStepRows {
+    _Alignas(64) CzRow flight_re, flight_im;
+    CzRow kick_re, kick_im, now_re, now_im, past_re, past_im;
+} CzPairStepRows;
 
 typedef struct CzReceptanceBlock {
-    int n_part;
-    CzReceptancePart *part;
-    _Alignas(64) CzRow z[4]; /* deflection of the modes under each wheelset, now */
-    CzRow past[4];           /* and half a step ago */
+    const CzReceptanceSteps *under[CZ_LANE_BLOCK]; /* each car; NULL without wheels */
+    const CzReceptanceSteps *same;          /* under all cars with wheels; NULL where they differ */
+    int n[CZ_N_PAIR_MOTION];                /* most modes of a lane */
+    CzPairStepRows *mode[CZ_N_PAIR_MOTION]; /* (n) */
+    CzRow *state[2][CZ_N_PAIR_MOTION]; /* of the rear and the front bogie, real and imaginary parts
+                                          in turn (2 n) */
+    _Alignas(64) CzRow per_spacing;    /* of the seats [1/m] */
+    CzRow corner, term[CZ_TRACK_FLEX_TERMS]; /* as CzTrackFlexibility */
+    CzRow z[4];                              /* deflection of the modes under each wheelset, now */
+    CzRow past[4];                           /* and half a step ago */
 } CzReceptanceBlock;
 
 typedef struct CzReceptanceMotion {
-    double per_spacing; /* of the seats [1/m] */
     int n_steps;
-    const CzReceptanceSteps *steps;
-    CzReceptanceBlock *block; /* one for each of the dynamics' */
+    const CzReceptanceSteps *steps; /* one for each receptance of each track (n_steps) */
+    CzReceptanceBlock *block;       /* one for each of the dynamics' */
 } CzReceptanceMotion;
 
-/* Constants for steps of h seconds (0: continuous time) and n_block blocks without cars; NULL when
- * there is no memory. */
-CzReceptanceMotion *cz_receptance_create(const CzTrackModes *modes, double step, int n_block,
-                                         CzArena *arena);
+/* Constants for steps of h seconds (0: continuous time) on n tracks, of which some may be the same,
+ * and n_block blocks without cars; NULL when there is no memory. */
+CzReceptanceMotion *cz_receptance_create(const CzTrackModes *const *modes, int n, double step,
+                                         int n_block, CzArena *arena);
 
-/* Lays the track under the car of a lane, whose axle spacing is one of those of the fitted modes,
- * at rest under the loads of its wheels [N]; false when there is no memory. */
-bool cz_receptance_lay(CzReceptanceMotion *track, size_t lane, double axle_spacing,
-                       const double load[4], CzArena *arena);
+/* Lays one of the tracks under the car of a lane, whose axle spacing is one of those of the fitted
+ * modes, at rest under the loads of its wheels [N]. */
+void cz_receptance_lay(CzReceptanceMotion *track, size_t lane, const CzTrackModes *modes,
+                       double axle_spacing, const double load[4]);
+
+/* Copies what the track under the car of a lane has reached to a lane with the same track. */
+void cz_receptance_move(CzReceptanceMotion *track, size_t lane, const CzReceptanceMotion *from,
+                        size_t from_lane);
 
 /* Deflection of the modes under each wheel now [m], and the additional flexibility at the wheels'
  * places [m/N]. */

@@ -313,20 +313,19 @@ static inline CzRailPoint cz_track_at(const CzTrackMotion *track, const CzTrackU
     return (CzRailPoint){.z = cz_track_sum(z), .slope = cz_track_sum(slope)};
 }
 
-/* Adds the flexibility between a wheel and the modes. */
-static inline CzRailPoint cz_track_on_spring(const CzTrackFlexibility *flexibility,
+/* Adds the flexibility between a wheel and the modes, whose terms are `stride` numbers apart. */
+static inline CzRailPoint cz_track_on_spring(double corner, const double *term, size_t stride,
                                              double per_spacing, CzRailPoint point,
                                              CzComplex seat) {
-    const double *term = flexibility->term;
     double slope = 0.0, power = 1.0;
     for (int k = 1; k < CZ_TRACK_FLEX_TERMS; ++k) {
-        slope += k * power * term[k];
+        slope += k * power * term[(size_t)k * stride];
         power *= seat.re;
     }
     /* d|sin(pi xi)| / d cos(2 pi xi) = -1 / (4 |sin(pi xi)|) */
     const double sine = sqrt(0.5 * fabs(1.0 - seat.re));
-    slope -= 0.25 * flexibility->corner / (sine + 1e-9);
-    point.flexibility = cz_track_flexibility_at(flexibility, seat.re);
+    slope -= 0.25 * corner / (sine + 1e-9);
+    point.flexibility = cz_track_flexibility_of(corner, term, stride, seat.re);
     point.flexibility_slope = -2.0 * CZ_PI * per_spacing * seat.im * slope;
     return point;
 }

@@ -67,9 +67,12 @@ static CzStatus time_runs(const Timing *timing, int n_design, bool records, doub
     const CzModel *model = timing->evaluator->model[timing->scene];
     CzSimulateOptions options = cz_simulate_options_default();
     CzRun *run[CZ_BENCHMARK_WIDTH] = {NULL};
+    CzPlannedRun planned[CZ_BENCHMARK_WIDTH];
+    for (int i = 0; i < n_design; i++)
+        planned[i] = (CzPlannedRun){model, NULL};
     options.record = records;
     const double started = cz_processor_clock();
-    const CzStatus status = cz_simulate_batch(model, n_design, NULL, &options, run, error);
+    const CzStatus status = cz_simulate_batch(n_design, planned, &options, run, error);
     *sample = (cz_processor_clock() - started) / n_design;
     if (status != CZ_OK)
         return status;

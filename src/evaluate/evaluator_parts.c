@@ -136,6 +136,9 @@ static CzStatus build(CzEvaluator *evaluator, const char *only, CzError *error) 
     cz_problem_vehicles(problem, &evaluator->n_vehicle);
     CZ_TRY(cz_scenes_build(problem, arena, &evaluator->n_scene, &evaluator->scene, error));
     evaluator->n_variation = (int)cz_scenes_n_variation(evaluator->n_scene, evaluator->scene);
+    evaluator->length = cz_arena_numbers(arena, (size_t)evaluator->n_scene);
+    if (evaluator->length == NULL)
+        return cz_no_memory(error, "the scenarios");
     CZ_TRY(cz_obstacles_find(problem, evaluator->n_scene, evaluator->scene, arena,
                              &evaluator->obstacles, error));
     CZ_TRY(cz_design_build(problem, evaluator->n_scene, evaluator->scene, arena, &evaluator->design,

@@ -23,7 +23,9 @@ struct CzEvaluator {
     CzModel *const *model; /* its models; NULL for scenarios left out (n_scene) */
     int n_vehicle, n_variation;
     const CzVehicle *vehicles; /* its vehicles in each variation (n_variation x n_vehicle) */
-    double rate; /* crush rate for tube forces: half the largest closing speed [m/s] */
+    double *length; /* simulated time of the last run of each scenario, 0 before the first: for the
+                       order of the runs only [s] (n_scene) */
+    double rate;    /* crush rate for tube forces: half the largest closing speed [m/s] */
     CzDesign design;
     CzChecklist list;
     int *constraint_check;        /* check behind each constraint (n_constraint) */

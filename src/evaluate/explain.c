@@ -64,7 +64,7 @@ static CzStatus run_batch(const Search *search, Candidate *candidate, int n, CzV
     const CzEvaluator *evaluator = search->evaluator;
     const size_t n_vehicle = (size_t)evaluator->n_vehicle;
     const CzModel *model = evaluator->model[search->climbing.scenario];
-    const CzVehicle *design[MOST_WIDTH];
+    CzPlannedRun design[MOST_WIDTH];
     CzRun *run[MOST_WIDTH] = {NULL};
     Candidate *of_design[MOST_WIDTH];
     int n_design = 0;
@@ -78,19 +78,19 @@ static CzStatus run_batch(const Search *search, Candidate *candidate, int n, CzV
         if (cz_problem_check_vehicles(evaluator->problem, own, NULL) != CZ_OK)
             continue;
         of_design[n_design] = &candidate[i];
-        design[n_design++] = own;
+        design[n_design++] = (CzPlannedRun){model, own};
     }
     CzSimulateOptions options = cz_simulate_options_default();
     options.record = false;
     options.track = CZ_TRACK_USE_SEARCH;
     options.brief = true; /* an override occurs long before all wheels are at rest */
     const CzStatus status =
-        n_design > 0 ? cz_simulate_batch(model, n_design, design, &options, run, error) : CZ_OK;
+        n_design > 0 ? cz_simulate_batch(n_design, design, &options, run, error) : CZ_OK;
     for (int i = 0; i < n_design; i++) {
         if (status == CZ_OK)
-            of_design[i]->margin =
-                cz_climbing_judge(&search->climbing, evaluator, design[i], cz_run_summary(run[i]))
-                    .margin;
+            of_design[i]->margin = cz_climbing_judge(&search->climbing, evaluator,
+                                                     design[i].vehicles, cz_run_summary(run[i]))
+                                       .margin;
         cz_run_free(run[i]);
     }
     return status;

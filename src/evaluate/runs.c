@@ -1,14 +1,14 @@
 /* Runs many designs in all scenarios on a few threads.
  *
- *   designs x scenarios --tasks of a few lanes--> runs --compose--> evaluation
+ *   designs x scenarios --batches (run_plan.c)--> runs --compose--> evaluation
  *
  * Runs are stored by design and scenario and composed in that order, so that neither the number of
  * threads nor the neighbours of a design change a bit of its results.
  */
 #include "base/error.h"
 #include "evaluate/compose.h"
+#include "evaluate/run_plan.h"
 #include "evaluate/tasks.h"
-#include "simulate/batch.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -16,90 +16,27 @@
 /* Number of designs whose vehicle records are in memory at a time. */
 enum { BLOCK = 64 };
 
-/* Designs of one variant that run side by side in one scenario. */
-typedef struct Task {
-    int scene, first, n; /* designs in the block's order */
-} Task;
-
 /* One block of designs in all scenarios. */
 typedef struct Block {
     const CzEvaluator *evaluator;
     int n_point;
     const double *x;                 /* (n_point x n_variable); NULL: the file's own values */
     int combination[BLOCK];          /* of each design (n_point) */
-    int order[BLOCK];                /* designs sorted by combination (n_point) */
     const CzVehicle *vehicle[BLOCK]; /* the vehicles of each design in all variations (n_point) */
     CzVariant own[BLOCK];            /* variants of designs that are read again (n_point) */
     bool is_refused[BLOCK];          /* designs that break a rule of files (n_point) */
     CzRun **run;                     /* (n_point x n_scene) */
     bool record, keep;               /* channels are recorded, runs are kept */
     CzManner manner;
-    int n_task;
-    Task *task; /* (n_task) */
+    CzRunPlan plan;
 } Block;
-
-/* Runs n designs of one variant, given in the block's order, in one scenario. */
-static CzStatus run_designs(const Block *block, const CzModel *model, const Task *task,
-                            CzError *error) {
-    const CzEvaluator *evaluator = block->evaluator;
-    if (evaluator->stop != NULL && *evaluator->stop != 0)
-        return cz_fail(error, CZ_STATUS_INTERRUPTED, "the evaluation was interrupted");
-    CzSimulateOptions options = cz_simulate_options_default();
-    options.record = block->record;
-    options.brief = block->manner.brief;
-    options.integrator = block->manner.integrator;
-    options.track = block->manner.track;
-    if (block->manner.step_factor != 1)
-        options.time_step = cz_model_time_step(model) * block->manner.step_factor;
-    const CzVehicle *vehicles[BLOCK];
-    CzRun *run[BLOCK] = {NULL};
-    for (int i = 0; i < task->n; i++)
-        vehicles[i] =
-            cz_vehicles_in(evaluator, block->vehicle[block->order[task->first + i]], task->scene);
-    const CzStatus status = cz_simulate_batch(model, task->n, vehicles, &options, run, error);
-    for (int i = 0; i < task->n; i++)
-        block->run[block->order[task->first + i] * evaluator->n_scene + task->scene] = run[i];
-    return status;
-}
-
-static CzStatus run_task(int index, void *data, CzError *error) {
-    const Block *block = data;
-    const Task *task = &block->task[index];
-    const int combination = block->combination[block->order[task->first]];
-    const CzModel *model = block->evaluator->variant[combination].model[task->scene];
-    return run_designs(block, model, task, error);
-}
-
-/* Splits designs and scenarios into tasks that fill the lanes; a task has designs of one
- * variant. */
-static void cut_tasks(Block *block) {
-    const CzEvaluator *evaluator = block->evaluator;
-    block->n_task = 0;
-    for (int begin = 0, end = 0; begin < block->n_point; begin = end) {
-        const int combination = block->combination[block->order[begin]];
-        while (end < block->n_point && block->combination[block->order[end]] == combination)
-            end++;
-        for (int s = 0; s < evaluator->n_scene; s++) {
-            const CzModel *model = evaluator->variant[combination].model[s];
-            if (model == NULL)
-                continue;
-            const int width = cz_simulate_batch_width(model);
-            const int n_chunk = (end - begin + width - 1) / width;
-            for (int chunk = 0, first = begin; chunk < n_chunk; chunk++) {
-                const int n = (end - first) / (n_chunk - chunk); /* chunks of equal size */
-                block->task[block->n_task++] = (Task){s, first, n};
-                first += n;
-            }
-        }
-    }
-}
 
 /* ---- designs that are reread ------------------------------------------------------------------
  */
 
-/* Builds the variant of one design and runs it in all scenarios. A design that violates a rule is
- * rejected, which is a result and not an error. */
-static CzStatus run_reread(int index, void *data, CzError *error) {
+/* Builds the variant of one design. A design that violates a rule is rejected, which is a result
+ * and not an error. */
+static CzStatus reread(int index, void *data, CzError *error) {
     Block *block = data;
     const CzEvaluator *evaluator = block->evaluator;
     CzVariant *variant = &block->own[index];
@@ -115,27 +52,90 @@ static CzStatus run_reread(int index, void *data, CzError *error) {
     block->is_refused[index] = status == CZ_STATUS_INPUT;
     if (status == CZ_OK)
         block->vehicle[index] = variant->vehicles;
-    for (int s = 0; s < evaluator->n_scene && status == CZ_OK; s++)
-        if (variant->model[s] != NULL)
-            status = run_designs(block, variant->model[s], &(Task){s, index, 1}, error);
     cz_arena_free(&arena);
     return block->is_refused[index] ? CZ_OK : status;
 }
 
-/* ---- a block --------------------------------------------------------------------------------- */
+/* ---- runs ------------------------------------------------------------------------------------ */
+
+static CzSimulateOptions options_of(const Block *block) {
+    CzSimulateOptions options = cz_simulate_options_default();
+    options.record = block->record;
+    options.brief = block->manner.brief;
+    options.integrator = block->manner.integrator;
+    options.track = block->manner.track;
+    return options;
+}
+
+/* Runs the items of a chunk side by side. */
+static CzStatus run_chunk(int index, void *data, CzError *error) {
+    const Block *block = data;
+    const CzEvaluator *evaluator = block->evaluator;
+    const CzRunChunk *chunk = &block->plan.chunk[index];
+    const CzRunItem *item = &block->plan.item[chunk->first];
+    if (evaluator->stop != NULL && *evaluator->stop != 0)
+        return cz_fail(error, CZ_STATUS_INTERRUPTED, "the evaluation was interrupted");
+    CzSimulateOptions options = options_of(block);
+    if (block->manner.step_factor != 1)
+        options.time_step = cz_model_time_step(item->model) * block->manner.step_factor;
+    CzPlannedRun *planned = calloc((size_t)chunk->n, sizeof *planned);
+    CzRun **run = calloc((size_t)chunk->n, sizeof(CzRun *));
+    CzStatus status = CZ_OK;
+    if (planned == NULL || run == NULL)
+        status = cz_no_memory(error, "the runs");
+    for (int i = 0; status == CZ_OK && i < chunk->n; i++)
+        planned[i] =
+            (CzPlannedRun){item[i].model, cz_vehicles_in(evaluator, block->vehicle[item[i].design],
+                                                         item[i].scene)};
+    if (status == CZ_OK)
+        status = cz_simulate_batch(chunk->n, planned, &options, run, error);
+    for (int i = 0; run != NULL && i < chunk->n; i++)
+        block->run[item[i].design * evaluator->n_scene + item[i].scene] = run[i];
+    free(run);
+    free(planned);
+    return status;
+}
+
+/* Lists the runs of all designs that are not refused. */
+static void list_runs(Block *block) {
+    const CzEvaluator *evaluator = block->evaluator;
+    for (int i = 0; i < block->n_point; i++) {
+        const bool is_reread = block->own[i].model != NULL;
+        const CzVariant *variant =
+            is_reread ? &block->own[i] : &evaluator->variant[block->combination[i]];
+        for (int s = 0; s < evaluator->n_scene && !block->is_refused[i]; s++)
+            if (variant->model[s] != NULL)
+                block->plan.item[block->plan.n_item++] =
+                    (CzRunItem){.design = i,
+                                .scene = s,
+                                .model = variant->model[s],
+                                .length = evaluator->length[s]};
+    }
+}
+
+/* Records how long the runs of a scenario take, for the order of the next ones. */
+static void note_lengths(const Block *block) {
+    const CzEvaluator *evaluator = block->evaluator;
+    for (int i = 0; i < block->n_point * evaluator->n_scene; i++)
+        if (block->run[i] != NULL)
+            evaluator->length[i % evaluator->n_scene] = cz_run_summary(block->run[i])->simulated;
+}
 
 static CzStatus run_block(Block *block, CzError *error) {
     const CzEvaluator *evaluator = block->evaluator;
     if (evaluator->design.is_fit && block->x != NULL)
-        return cz_tasks_run(block->n_point, evaluator->n_job, run_reread, block, error);
-    block->task = calloc((size_t)evaluator->n_scene * (size_t)block->n_point, sizeof *block->task);
-    if (block->task == NULL)
-        return cz_no_memory(error, "the designs");
-    cut_tasks(block);
-    const CzStatus status = cz_tasks_run(block->n_task, evaluator->n_job, run_task, block, error);
-    free(block->task);
-    return status;
+        CZ_TRY(cz_tasks_run(block->n_point, evaluator->n_job, reread, block, error));
+    const CzSimulateOptions options = options_of(block);
+    const bool is_single = block->record || options.integrator != CZ_INTEGRATOR_ZHAI;
+    CZ_TRY(cz_run_plan_begin(&block->plan, block->n_point * evaluator->n_scene, error));
+    list_runs(block);
+    CZ_TRY(cz_run_plan_cut(&block->plan, &options, is_single, evaluator->n_job, error));
+    CZ_TRY(cz_tasks_run(block->plan.n_chunk, evaluator->n_job, run_chunk, block, error));
+    note_lengths(block);
+    return CZ_OK;
 }
+
+/* ---- a block --------------------------------------------------------------------------------- */
 
 /* Evaluates each design of a finished block; keeps its runs if requested; fills the details, NaN
  * for designs that failed, unless `detail` is NULL. */
@@ -172,21 +172,6 @@ static CzStatus compose_block(Block *block, CzEvaluation *evaluation, double *de
     return status;
 }
 
-/* Sorts the designs of a block by their combination of choices; an insertion sort keeps the order
- * of the rest. */
-static void sort_block(Block *block) {
-    const CzDesign *design = &block->evaluator->design;
-    for (int i = 0; i < block->n_point; i++) {
-        const double *x = block->x != NULL ? block->x + i * design->n_variable : NULL;
-        block->combination[i] =
-            x != NULL ? cz_design_combination(design, x) : block->evaluator->own;
-        int k = i;
-        for (; k > 0 && block->combination[block->order[k - 1]] > block->combination[i]; k--)
-            block->order[k] = block->order[k - 1];
-        block->order[k] = i;
-    }
-}
-
 /* `settings` contains the settings of the runs and the results to keep. */
 static CzStatus evaluate_block(const Block *settings, int n_point, const double *x,
                                CzEvaluation *evaluation, double *detail, CzError *error) {
@@ -202,8 +187,11 @@ static CzStatus evaluate_block(const Block *settings, int n_point, const double 
     CzStatus status = CZ_OK;
     if (copies == NULL || block.run == NULL)
         status = cz_no_memory(error, "the designs");
-    sort_block(&block);
     for (int i = 0; i < n_point && status == CZ_OK; i++) {
+        block.combination[i] =
+            x != NULL
+                ? cz_design_combination(&evaluator->design, x + i * evaluator->design.n_variable)
+                : evaluator->own;
         CzVehicle *vehicles = copies + (size_t)i * n_vehicle;
         memcpy(vehicles, evaluator->variant[block.combination[i]].vehicles,
                n_vehicle * sizeof *vehicles);
@@ -220,6 +208,7 @@ static CzStatus evaluate_block(const Block *settings, int n_point, const double 
         cz_run_free(block.run[i]);
     for (int i = 0; i < n_point; i++)
         cz_variant_free(&block.own[i]);
+    cz_run_plan_free(&block.plan);
     free(block.run);
     free(copies);
     return status;

@@ -18,6 +18,7 @@ set(CZ_SOURCES_evaluate
     obstacle.c
     place.c
     result_units.c
+    run_plan.c
     runs.c
     scene.c
     sweep.c

@@ -272,6 +272,7 @@ static CzStatus look_at_own_design(CzModel *model, const CzVehicle *vehicles, Cz
     if (lanes == NULL)
         return cz_no_memory(error, "the model");
     CZ_TRY(cz_model_fill(model, vehicles, 0, lanes, error));
+    model->has = lanes->has;
     CZ_TRY(cz_model_find_properties(model, lanes, error));
     CZ_TRY(cz_model_find_bounds(model, lanes, error));
     CZ_TRY(choose_step(model, error));

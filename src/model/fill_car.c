@@ -216,7 +216,7 @@ static void fill_wheels(const Car *car) {
     rows->friction_sliding[i] = friction.sliding;
     rows->friction_fall_speed[i] = adhesion->fall_speed;
     rows->rolling_resistance[i] = car->vehicle->rolling_resistance;
-    car->fill->lanes->has_rolling |= car->vehicle->rolling_resistance > 0.0;
+    car->fill->lanes->has.rolling |= car->vehicle->rolling_resistance > 0.0;
 }
 
 /* ---- cars without running gear ---- */
@@ -235,7 +235,7 @@ static void fill_drag(const Car *car) {
     rows->brake_sliding[car->i] = (locks ? friction.sliding : ratio) * braked;
     rows->rolling[car->i] = car->vehicle->rolling_resistance * weight;
     car->rows->wheel.friction_fall_speed[car->i] = model->simulation->adhesion.fall_speed;
-    car->fill->lanes->has_drag |= rows->brake[car->i] + rows->rolling[car->i] > 0.0;
+    car->fill->lanes->has.drag |= rows->brake[car->i] + rows->rolling[car->i] > 0.0;
 }
 
 static void fill_slide(const Car *car) {
@@ -246,7 +246,7 @@ static void fill_slide(const Car *car) {
     rows->slide[car->i] = slide->force;
     rows->slide_length[car->i] = slide->length;
     rows->slide_stiffness[car->i] = slide->bottom_stiffness;
-    car->fill->lanes->has_drag = 1;
+    car->fill->lanes->has.drag = 1;
 }
 
 CzStatus cz_fill_car(const CzFill *fill, int number, const CzStatics *statics) {
@@ -266,7 +266,7 @@ CzStatus cz_fill_car(const CzFill *fill, int number, const CzStatics *statics) {
     block->velocity.body.x[i] = block->velocity.end[0].x[i] = block->velocity.end[1].x[i] =
         car.place->speed;
     if (car.place->model == CZ_MODEL_FULL) {
-        fill->lanes->has_full_cars = 1;
+        fill->lanes->has.full_cars = 1;
         block->parameter.slaved_ends[i] = 0.0;
         put_plane(&car, &block->mass.body, &block->velocity.body, statics->body_mass,
                   statics->body_inertia);

@@ -292,7 +292,7 @@ static CzStatus fill_couplers(const Pair *pair) {
     rows->length[i] = sqrt(length * length + rise * rise);
     rows->along[i] = length;
     rows->compliance[i] = compliance;
-    pair->fill->lanes->has_couplers = 1;
+    pair->fill->lanes->has.couplers = 1;
     return CZ_OK;
 }
 
@@ -401,7 +401,7 @@ static CzStatus fill_side_buffers(const Pair *pair) {
         rows->friction[pair->i] =
             fmin(value_or_zero(pair->side[CZ_SIDE_A].end->side_buffers.friction),
                  value_or_zero(pair->side[CZ_SIDE_B].end->side_buffers.friction));
-    pair->fill->lanes->has_side_buffers = 1;
+    pair->fill->lanes->has.side_buffers = 1;
     return CZ_OK;
 }
 
@@ -416,7 +416,7 @@ static void fill_superstructures(const Pair *pair) {
     fill_contact(pair, SUPERSTRUCTURE, &rows->contact);
     rows->stiffness[pair->i] = in_series(a->stiffness, b->stiffness);
     rows->strength[pair->i] = fmin(a->strength, b->strength);
-    pair->fill->lanes->has_superstructures = 1;
+    pair->fill->lanes->has.superstructures = 1;
 }
 
 /* ---- draw gears ---- */
@@ -439,7 +439,7 @@ static void fill_draw_gears(const Pair *pair) {
     rows->contact.rise[i] = heights.rise;
     rows->stiffness[i] = in_series(a->stiffness, b->stiffness);
     rows->slack[i] = a->slack + b->slack;
-    pair->fill->lanes->has_draw_gears = 1;
+    pair->fill->lanes->has.draw_gears = 1;
 }
 
 CzStatus cz_fill_interface(const CzFill *fill, int interface, const CzStatics *behind,

@@ -1,8 +1,6 @@
 /* Memory of the lanes, with neutral numbers everywhere. */
 #include "model/lanes.h"
 
-#include <stdbool.h>
-
 #include "laws/law.h"
 
 static void set_row(double *row, size_t n, double value) {
@@ -111,6 +109,32 @@ CzLanes *cz_lanes_create(int n_car, int n_design, const int n_breakpoint[CZ_N_CU
     for (size_t k = 0; k < n_block; k++)
         set_neutral(&lanes->block[k].parameter);
     return lanes;
+}
+
+/* ---- copies ---- */
+
+static void copy_curve(CzCurveLanes *curve, size_t lane, const CzCurveLanes *from,
+                       size_t from_lane) {
+    curve->start[lane] = from->start[from_lane];
+    curve->usable[lane] = from->usable[from_lane];
+    for (size_t k = 0; k < (size_t)curve->n_breakpoint; k++) {
+        curve->at[k * curve->stride + lane] = from->at[k * from->stride + from_lane];
+        curve->slope_change[k * curve->stride + lane] =
+            from->slope_change[k * from->stride + from_lane];
+    }
+}
+
+void cz_lanes_copy_design(CzLanes *lanes, int design, const CzLanes *from, int from_design) {
+    for (int car = 0; car < lanes->n_car; car++) {
+        const size_t lane = (size_t)(car * lanes->n_design + design);
+        const size_t from_lane = (size_t)(car * from->n_design + from_design);
+        cz_copy_lane(cz_lane_block(lanes, lane), lane % CZ_LANE_BLOCK,
+                     cz_lane_block(from, from_lane), from_lane % CZ_LANE_BLOCK,
+                     sizeof(CzLaneBlock));
+        for (int id = 0; id < CZ_N_CURVE; id++)
+            copy_curve(&lanes->curve[id], lane, &from->curve[id], from_lane);
+    }
+    lanes->has = from->has;
 }
 
 /* ---- curves in a lane ---- */

@@ -8,6 +8,8 @@
 #ifndef CZ_MODEL_LANES_H
 #define CZ_MODEL_LANES_H
 
+#include <stdbool.h>
+
 #include "base/arena.h"
 #include "model/parameters.h"
 
@@ -50,6 +52,14 @@ typedef struct CzLaneBlock {
     CzState velocity; /* at t = 0 [m/s, rad/s] */
 } CzLaneBlock;
 
+/* What some interface or car has: the kernel leaves out everything else. */
+typedef struct CzLanesHave {
+    bool side_buffers, superstructures, draw_gears, couplers;
+    bool full_cars;
+    bool rolling; /* wheelsets with rolling resistance */
+    bool drag;    /* cars without running gear that the track brakes */
+} CzLanesHave;
+
 typedef struct CzLanes {
     int n_car;
     int n_design;
@@ -57,19 +67,17 @@ typedef struct CzLanes {
     size_t stride;      /* n_lane and the lanes of one car more, in whole blocks */
     CzLaneBlock *block; /* (stride / CZ_LANE_BLOCK) */
     CzCurveLanes curve[CZ_N_CURVE];
-    int has_side_buffers;    /* any interface has them */
-    int has_superstructures; /* likewise */
-    int has_draw_gears;      /* likewise */
-    int has_couplers;        /* any interface has them */
-    int has_full_cars;       /* any car is a full one */
-    int has_rolling;         /* any wheelset has rolling resistance */
-    int has_drag;            /* the track brakes some car without running gear */
+    CzLanesHave has;
 } CzLanes;
 
 /* Memory for the lanes of n_design designs of n_car cars, neutral everywhere, with n_breakpoint
  * breakpoints for each curve; NULL when there is none. */
 CzLanes *cz_lanes_create(int n_car, int n_design, const int n_breakpoint[CZ_N_CURVE],
                          CzArena *arena);
+
+/* Copies a design from the lanes of other ones, of as many cars and breakpoints; what these have,
+ * the lanes then have too. */
+void cz_lanes_copy_design(CzLanes *lanes, int design, const CzLanes *from, int from_design);
 
 /* The block of a lane; its place there is lane % CZ_LANE_BLOCK. */
 static inline CzLaneBlock *cz_lane_block(const CzLanes *lanes, size_t lane) {

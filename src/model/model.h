@@ -42,6 +42,7 @@ struct CzModel {
                     0.02 s without full cars (ours) [s] */
     int n_bound;
     CzStepBound *bound;           /* smallest first */
+    CzLanesHave has;              /* in the lanes of the problem's own design */
     int n_breakpoint[CZ_N_CURVE]; /* breakpoints that suffice for every design, from the number of
                                      stages or points */
     CzVehicleProperties *properties;             /* (n_car) */

@@ -58,4 +58,11 @@ static inline const double *cz_const_row_of(const void *rows, int row) {
     return (const double *)rows + (size_t)row * CZ_LANE_BLOCK;
 }
 
+/* Copies a lane of a struct of rows, of `size` bytes, to a lane of another one. */
+static inline void cz_copy_lane(void *to, size_t lane, const void *from, size_t from_lane,
+                                size_t size) {
+    for (int row = 0; row < (int)(size / sizeof(CzRow)); row++)
+        cz_row_of(to, row)[lane] = cz_const_row_of(from, row)[from_lane];
+}
+
 #endif

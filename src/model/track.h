@@ -82,11 +82,17 @@ typedef struct CzTrackFlexibility {
     double term[CZ_TRACK_FLEX_TERMS]; /* [m/N] */
 } CzTrackFlexibility;
 
-static inline double cz_track_flexibility_at(const CzTrackFlexibility *flexibility, double cosine) {
+/* Terms are `stride` numbers apart: in a row of lanes each lane has its own. */
+static inline double cz_track_flexibility_of(double corner, const double *term, size_t stride,
+                                             double cosine) {
     double value = 0.0;
     for (int k = CZ_TRACK_FLEX_TERMS - 1; k >= 0; --k)
-        value = value * cosine + flexibility->term[k];
-    return value + flexibility->corner * sqrt(0.5 * fabs(1.0 - cosine));
+        value = value * cosine + term[(size_t)k * stride];
+    return value + corner * sqrt(0.5 * fabs(1.0 - cosine));
+}
+
+static inline double cz_track_flexibility_at(const CzTrackFlexibility *flexibility, double cosine) {
+    return cz_track_flexibility_of(flexibility->corner, flexibility->term, 1, cosine);
 }
 
 /* Flexibility under each force in addition to the modes, so that a static force has the exact

@@ -18,7 +18,7 @@ void cz_accounts_take(const CzBatch *batch, int design) {
     if (progress->accounts_taken == batch->n_step + 1)
         return;
     progress->accounts_taken = batch->n_step + 1;
-    for (int car = 0; car < batch->model->n_car; ++car) {
+    for (int car = 0; car < batch->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
         cz_stored_fill(batch->dynamics, lane, &batch->stored[lane]);
     }

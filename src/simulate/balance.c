@@ -22,7 +22,7 @@ static double settled_velocity(const CzBatch *batch, int dof, size_t lane) {
 
 double cz_kinetic_energy(const CzBatch *batch, int design) {
     double energy = 0.0;
-    for (int car = 0; car < batch->model->n_car; ++car) {
+    for (int car = 0; car < batch->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
         for (int dof = 0; dof < CZ_N_DOF; ++dof) {
             const double v = settled_velocity(batch, dof, lane);
@@ -46,7 +46,7 @@ static LedgerClass ledger_class(int row) {
 
 double cz_total_work(const CzBatch *batch, int design) {
     double work = 0.0;
-    for (int car = 0; car < batch->model->n_car; ++car) {
+    for (int car = 0; car < batch->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
         for (int row = 0; row < CZ_N_LEDGER; ++row)
             if (ledger_class(row) != BODIES)
@@ -66,7 +66,7 @@ double cz_balance_residual(const CzBatch *batch, int design) {
 
 double cz_momentum_error(const CzBatch *batch, int design) {
     double change = 0.0, scale = 0.0;
-    for (int car = 0; car < batch->model->n_car; ++car) {
+    for (int car = 0; car < batch->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
         for (int dof = 0; dof < CZ_N_DOF; ++dof) {
             if (cz_axis_of(dof) != CZ_AXIS_ALONG)
@@ -83,7 +83,7 @@ double cz_momentum_error(const CzBatch *batch, int design) {
 
 double cz_wheel_rail_work(const CzBatch *batch, int design) {
     double work = 0.0;
-    for (int car = 0; car < batch->model->n_car; ++car) {
+    for (int car = 0; car < batch->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
         work += cz_work(batch, CZ_LEDGER(wheel_creep), lane) +
                 cz_work(batch, CZ_LEDGER(brake), lane) + cz_work(batch, CZ_LEDGER(rolling), lane);
@@ -93,8 +93,8 @@ double cz_wheel_rail_work(const CzBatch *batch, int design) {
 
 double cz_train_speed(const CzBatch *batch, int train, int design) {
     double mass = 0.0, momentum = 0.0;
-    for (int car = 0; car < batch->model->n_car; ++car) {
-        if (batch->model->car[car].train != train)
+    for (int car = 0; car < batch->n_car; ++car) {
+        if (cz_car(batch, car, design)->train != train)
             continue;
         const size_t lane = cz_lane(batch, car, design);
         const double m = *cz_lane_mass(batch->lanes, CZ_DOF(body.x), lane);
@@ -106,7 +106,7 @@ double cz_train_speed(const CzBatch *batch, int train, int design) {
 
 double cz_largest_closing_speed(const CzBatch *batch, int design) {
     double largest = 0.0;
-    for (int car = 0; car + 1 < batch->model->n_car; ++car)
+    for (int car = 0; car + 1 < batch->n_car; ++car)
         largest = fmax(largest, cz_closing_speed(batch, car, design));
     return largest;
 }

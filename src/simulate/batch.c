@@ -1,7 +1,8 @@
 /* Simulates a collision from first contact to its end, for one design or for several side by
- * side. */
+ * side, in the same scenario or in several. */
 #include "simulate/batch.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -37,97 +38,120 @@ int cz_simulate_batch_width(const CzModel *model) {
     return width > 1 ? width : 1;
 }
 
+int cz_simulate_n_block(const CzModel *model, int n) {
+    return (model->n_car * n + CZ_LANE_BLOCK - 1) / CZ_LANE_BLOCK;
+}
+
 const char *cz_isa_name(void) {
     return cz_kernel(NULL)->isa;
 }
 
+static CzTrack track_of(const CzModel *model, CzTrackUse use) {
+    const CzTrack own = (CzTrack)model->simulation->track;
+    if (own == CZ_TRACK_RIGID || use == CZ_TRACK_USE_OWN)
+        return own;
+    if (use == CZ_TRACK_USE_SEARCH)
+        return model->track != NULL && model->track->n_receptance > 0 ? CZ_TRACK_RECEPTANCE : own;
+    return use == CZ_TRACK_USE_MODAL ? CZ_TRACK_MODAL : CZ_TRACK_FE;
+}
+
+static bool has_same_parts(const CzLanesHave *a, const CzLanesHave *b) {
+    return a->side_buffers == b->side_buffers && a->superstructures == b->superstructures &&
+           a->draw_gears == b->draw_gears && a->couplers == b->couplers &&
+           a->full_cars == b->full_cars && a->rolling == b->rolling && a->drag == b->drag;
+}
+
+bool cz_simulate_fits(const CzModel *a, const CzModel *b, const CzSimulateOptions *options) {
+    const CzTrack track = track_of(a, options->track);
+    const bool is_any_track = track == CZ_TRACK_RIGID || track == CZ_TRACK_RECEPTANCE;
+    return a->n_car == b->n_car && a->time_step == b->time_step &&
+           has_same_parts(&a->has, &b->has) && track_of(b, options->track) == track &&
+           (a->track == NULL) == (b->track == NULL) && (is_any_track || a->track == b->track);
+}
+
 /* Fills all lanes. The run of a design without a valid model has failed at once; its lanes get the
  * values of the file. */
-static CzStatus fill_designs(CzBatch *batch, const CzVehicle *own, CzError *error) {
+static CzStatus fill_designs(CzBatch *batch, CzError *error) {
     for (int design = 0; design < batch->n_design; ++design) {
         CzProgressOfDesign *progress = &batch->design[design];
+        const CzModel *model = progress->model;
         CzError problem = {0};
-        if (cz_model_fill(batch->model, batch->vehicles[design], design, batch->lanes, &problem) ==
-            CZ_OK)
+        int n_vehicle;
+        if (cz_model_fill(model, progress->vehicles, design, batch->lanes, &problem) == CZ_OK)
             continue;
         snprintf(progress->failure, sizeof progress->failure, "no model was built: %.220s",
                  problem.message);
         progress->over = true;
         progress->ended = CZ_ENDED_INCOMPLETE;
-        CZ_TRY(cz_model_fill(batch->model, own, design, batch->lanes, error));
+        CZ_TRY(cz_model_fill(model, cz_problem_vehicles(model->problem, &n_vehicle), design,
+                             batch->lanes, error));
     }
     return CZ_OK;
 }
 
-static CzTrack track_of(const CzBatch *batch, CzTrackUse use) {
-    const CzTrack own = (CzTrack)batch->model->simulation->track;
-    if (own == CZ_TRACK_RIGID || use == CZ_TRACK_USE_OWN)
-        return own;
-    if (use == CZ_TRACK_USE_SEARCH)
-        return batch->model->track->n_receptance > 0 ? CZ_TRACK_RECEPTANCE : own;
-    return use == CZ_TRACK_USE_MODAL ? CZ_TRACK_MODAL : CZ_TRACK_FE;
+/* Lanes with as many breakpoints as some design's model needs; NULL when there is no memory. */
+static CzLanes *create_lanes(CzBatch *batch) {
+    int n_breakpoint[CZ_N_CURVE] = {0};
+    for (int design = 0; design < batch->n_design; ++design)
+        for (int id = 0; id < CZ_N_CURVE; ++id) {
+            const int n = batch->design[design].model->n_breakpoint[id];
+            n_breakpoint[id] = n > n_breakpoint[id] ? n : n_breakpoint[id];
+        }
+    return cz_lanes_create(batch->n_car, batch->n_design, n_breakpoint, &batch->laid);
 }
 
-/* Stores the equipment of the interfaces, which does not change in a run. */
-static bool list_equipment(CzBatch *batch) {
-    const size_t n = (size_t)batch->model->n_car * (size_t)batch->n_design;
-    batch->equipment = cz_arena_allocate(&batch->arena, n, sizeof *batch->equipment);
-    for (size_t lane = 0; batch->equipment != NULL && lane < n; lane++)
-        batch->equipment[lane] = cz_interface_equipment(batch->lanes, lane);
-    return batch->equipment != NULL;
+static CzProgressOfDesign progress_at_start(const CzPlannedRun *planned, CzRun *run) {
+    int n_vehicle;
+    return (CzProgressOfDesign){.model = planned->model,
+                                .vehicles =
+                                    planned->vehicles != NULL
+                                        ? planned->vehicles
+                                        : cz_problem_vehicles(planned->model->problem, &n_vehicle),
+                                .run = run,
+                                .override_time = NAN,
+                                .wheel_rail = NAN,
+                                .quiet_since = NAN,
+                                .settled_since = NAN};
 }
 
-/* Memory, lanes and state at t = 0. */
-static CzStatus begin(CzBatch *batch, const CzModel *model, int n_design,
-                      const CzVehicle *const *vehicles, const CzSimulateOptions *options,
-                      CzError *error) {
-    memset(batch, 0, sizeof *batch);
-    batch->model = model;
+/* Settings of a batch; the models have the same values. */
+static CzStatus choose(CzBatch *batch, const CzModel *model, int n_design,
+                       const CzSimulateOptions *options, CzError *error) {
     batch->kernel = cz_kernel(options->isa);
     if (batch->kernel == NULL)
         return cz_fail(error, CZ_STATUS_INPUT, "no kernel for instruction set '%s' here",
                        options->isa);
+    batch->n_car = model->n_car;
     batch->n_design = n_design;
     batch->brief = options->brief;
     batch->integrator = options->integrator;
+    batch->track = track_of(model, options->track);
     batch->step = options->time_step > 0.0 ? options->time_step : model->time_step;
-    int n_vehicle;
-    const CzVehicle *own = cz_problem_vehicles(model->problem, &n_vehicle);
-    const CzVehicle **used = cz_arena_allocate(&batch->arena, (size_t)n_design, sizeof *used);
+    batch->history_step = fmax(1.0, round(SAMPLING / batch->step)) * batch->step;
+    return CZ_OK;
+}
+
+/* Memory, lanes and state at t = 0. */
+static CzStatus begin(CzBatch *batch, int n_design, const CzPlannedRun *planned,
+                      const CzSimulateOptions *options, CzRun **run, CzError *error) {
+    CZ_TRY(choose(batch, planned[0].model, n_design, options, error));
     batch->design = cz_arena_allocate(&batch->arena, (size_t)n_design, sizeof *batch->design);
-    batch->stored = cz_arena_allocate(&batch->arena, (size_t)model->n_car * (size_t)n_design,
-                                      sizeof *batch->stored);
-    batch->load = cz_interface_loads_begin(batch, &batch->arena);
-    batch->lanes = cz_model_lanes(model, n_design, &batch->arena);
-    if (batch->lanes != NULL)
-        batch->in_track = cz_arena_allocate(&batch->arena, batch->lanes->n_lane / CZ_LANE_BLOCK,
-                                            sizeof *batch->in_track);
-    if (used == NULL || batch->design == NULL || batch->stored == NULL || batch->load == NULL ||
-        batch->in_track == NULL)
+    if (batch->design == NULL)
         return cz_no_memory(error, "the designs");
-    for (int design = 0; design < n_design; ++design) {
-        used[design] = vehicles != NULL && vehicles[design] != NULL ? vehicles[design] : own;
-        batch->design[design].override_time = NAN;
-        batch->design[design].wheel_rail = NAN;
-        batch->design[design].quiet_since = NAN;
-        batch->design[design].settled_since = NAN;
-    }
-    batch->vehicles = used;
-    CZ_TRY(fill_designs(batch, own, error));
-    batch->dynamics = cz_dynamics_create(batch->lanes, &batch->arena);
-    if (batch->dynamics == NULL || !list_equipment(batch))
-        return cz_no_memory(error, "the designs");
-    const double track_step = batch->integrator == CZ_INTEGRATOR_ZHAI ? batch->step : 0.0;
-    if (model->track != NULL &&
-        !cz_dynamics_lay_track(batch->dynamics, model->track, track_of(batch, options->track),
-                               track_step, &batch->arena))
-        return cz_no_memory(error, "the track");
-    batch->closing_speed = cz_closing_speed(batch, model->colliding, 0);
-    const double samples = fmax(1.0, round(SAMPLING / batch->step));
-    batch->history.stride = batch->lanes->n_lane;
-    batch->history.step = samples * batch->step;
     for (int design = 0; design < n_design; ++design)
-        batch->design[design].initial_energy = cz_kinetic_energy(batch, design);
+        batch->design[design] = progress_at_start(&planned[design], run[design]);
+    batch->lanes = create_lanes(batch);
+    if (batch->lanes == NULL)
+        return cz_no_memory(error, "the designs");
+    CZ_TRY(fill_designs(batch, error));
+    CZ_TRY(cz_batch_lay(batch, error));
+    for (int design = 0; design < n_design; ++design) {
+        CzProgressOfDesign *progress = &batch->design[design];
+        if (!isnan(progress->model->duration))
+            progress->last = lround(progress->model->duration / batch->step);
+        progress->closing_speed = cz_closing_speed(batch, progress->model->colliding, design);
+        progress->initial_energy = cz_kinetic_energy(batch, design);
+    }
     batch->kernel->evaluate(batch->dynamics, batch->step);
     batch->kernel->commit(batch->dynamics, 0.0, 0.0);
     if (batch->integrator == CZ_INTEGRATOR_ZHAI || batch->design[0].over)
@@ -148,12 +172,12 @@ typedef struct {
 
 /* Largest residual of the vehicles at rest; NaN when none has running gear. */
 static CzStatus find_rest_residual(CzBatch *batch, double *residual, CzError *error) {
-    const int n_car = batch->model->n_car;
+    const int n_car = batch->n_car;
     CzRest *rest = cz_arena_allocate(&batch->arena, (size_t)n_car, sizeof *rest);
     *residual = NAN;
     if (rest == NULL)
         return cz_no_memory(error, "the vehicles at rest");
-    CZ_TRY(cz_rest_of_cars(batch->model, batch->lanes, rest, error));
+    CZ_TRY(cz_rest_of_cars(batch->design[0].model, batch->lanes, rest, error));
     for (int car = 0; car < n_car; ++car)
         *residual = fmax(*residual, rest[car].residual);
     return CZ_OK;
@@ -162,7 +186,7 @@ static CzStatus find_rest_residual(CzBatch *batch, double *residual, CzError *er
 static CzStatus record_begin(Recording *recording, CzBatch *batch, CzRun *run, CzError *error) {
     recording->run = run;
     CZ_TRY(find_rest_residual(batch, &recording->rest_residual, error));
-    const double wanted = batch->model->simulation->output_step / batch->step;
+    const double wanted = batch->design[0].model->simulation->output_step / batch->step;
     recording->every = wanted > 1.0 ? lround(wanted) : 1;
     recording->watch = cz_watch_begin(batch, &run->arena);
     if (batch->reference == NULL)
@@ -193,14 +217,24 @@ static void record_end(Recording *recording) {
     summary->event = cz_watch_events(recording->watch, &summary->n_event);
 }
 
-/* Writes the summaries of the designs whose run is over and that have none yet. */
-static CzStatus finish(const CzBatch *batch, CzRun **run, bool *written) {
-    for (int design = 0; design < batch->n_design; ++design) {
-        if (!batch->design[design].over || written[design])
-            continue;
-        written[design] = true;
-        if (cz_summary_fill(batch, design, run[design]) != CZ_OK)
+/* Adds a sample to the histories of the designs without a summary. */
+static CzStatus add_history(const CzBatch *batch) {
+    for (int design = 0; design < batch->n_design; ++design)
+        if (!batch->design[design].has_summary && cz_history_add(batch, design) != CZ_OK)
             return CZ_STATUS_NO_MEMORY;
+    return CZ_OK;
+}
+
+/* Writes the summaries of the designs whose run is over and that have none yet. */
+static CzStatus finish(const CzBatch *batch, bool is_time) {
+    for (int design = 0; design < batch->n_design; ++design) {
+        CzProgressOfDesign *progress = &batch->design[design];
+        if (!progress->over || progress->has_summary || !cz_ending_is_due(batch, design, is_time))
+            continue;
+        progress->has_summary = true;
+        if (cz_summary_fill(batch, design, progress->run) != CZ_OK)
+            return CZ_STATUS_NO_MEMORY;
+        cz_history_free(&progress->history);
     }
     return CZ_OK;
 }
@@ -240,28 +274,38 @@ static void step(CzBatch *batch, const Recording *recording) {
     batch->kernel->step(batch->dynamics, batch->step, first, batch->time);
 }
 
+/* The step with which the next duration ends; LONG_MAX when there is none. */
+static long next_duration(const CzBatch *batch) {
+    long next = LONG_MAX;
+    for (int design = 0; design < batch->n_design; ++design) {
+        const long last = batch->design[design].last;
+        next = last > batch->n_step && last < next ? last : next;
+    }
+    return next;
+}
+
 /* Steps until the run of every design is over. */
-static CzStatus march(CzBatch *batch, CzRun **run, Recording *recording, CzError *error) {
-    bool *written = cz_arena_allocate(&batch->arena, (size_t)batch->n_design, sizeof *written);
-    if (written == NULL)
-        return cz_no_memory(error, "the run");
-    const long every = lround(batch->history.step / batch->step);
-    const double length = batch->model->duration;
-    const long look =
-        (long)fmax(1.0, round(STEPS_BETWEEN_LOOKS * batch->model->time_step / batch->step));
-    const long last = isnan(length) ? 0 : lround(length / batch->step);
-    CzStatus status = cz_history_add(&batch->history, batch);
-    bool all_over = false;
-    while (status == CZ_OK && !all_over) {
+static CzStatus march(CzBatch *batch, Recording *recording, CzError *error) {
+    const long every = lround(batch->history_step / batch->step);
+    const double look_step = STEPS_BETWEEN_LOOKS * batch->design[0].model->time_step;
+    const long look = (long)fmax(1.0, round(look_step / batch->step));
+    CzStatus status = add_history(batch);
+    long next = next_duration(batch);
+    int n_left = batch->n_design;
+    while (status == CZ_OK && n_left > 0) {
         step(batch, recording);
         if (batch->n_step % every == 0)
-            status = cz_history_add(&batch->history, batch);
+            status = add_history(batch);
         if (status == CZ_OK && recording != NULL)
             status = record_step(recording, batch);
-        if (status == CZ_OK && (batch->n_step % look == 0 || batch->n_step == last ||
-                                (batch->reference != NULL && batch->design[0].over))) {
-            all_over = cz_ending_look(batch);
-            status = finish(batch, run, written);
+        const bool is_time =
+            batch->n_step % look == 0 || (batch->reference != NULL && batch->design[0].over);
+        if (status == CZ_OK && (is_time || batch->n_step == next)) {
+            n_left = cz_ending_look(batch, is_time);
+            status = finish(batch, is_time);
+            if (status == CZ_OK && n_left > 0 && n_left < batch->n_design)
+                status = cz_batch_close_up(batch, n_left, error);
+            next = next_duration(batch);
         }
     }
     return status == CZ_OK ? CZ_OK : cz_no_memory(error, "the run");
@@ -269,63 +313,63 @@ static CzStatus march(CzBatch *batch, CzRun **run, Recording *recording, CzError
 
 static void batch_free(CzBatch *batch) {
     cz_reference_free(batch->reference);
-    cz_history_free(&batch->history);
+    for (int design = 0; batch->design != NULL && design < batch->n_design; ++design)
+        cz_history_free(&batch->design[design].history);
+    cz_arena_free(&batch->laid);
     cz_arena_free(&batch->arena);
 }
 
-static void free_runs(int n_design, CzRun **run) {
-    for (int design = 0; design < n_design; ++design) {
-        cz_run_free(run[design]);
-        run[design] = NULL;
+static void free_runs(int n, CzRun **run) {
+    for (int i = 0; i < n; ++i) {
+        cz_run_free(run[i]);
+        run[i] = NULL;
     }
 }
 
 /* Simulates designs side by side with common time steps. */
-static CzStatus simulate_together(const CzModel *model, int n_design,
-                                  const CzVehicle *const *vehicles,
+static CzStatus simulate_together(int n, const CzPlannedRun *planned,
                                   const CzSimulateOptions *options, CzRun **run, CzError *error) {
     const double t0 = cz_clock();
     CzStatus status = CZ_OK;
-    for (int design = 0; design < n_design; ++design) {
-        run[design] = calloc(1, sizeof **run);
-        if (run[design] == NULL)
+    for (int i = 0; i < n; ++i) {
+        run[i] = calloc(1, sizeof **run);
+        if (run[i] == NULL)
             status = cz_no_memory(error, "the runs");
     }
     CzBatch batch = {0};
     Recording recording = {0};
-    const bool records = options->record && n_design == 1;
+    const bool records = options->record && n == 1;
     if (status == CZ_OK)
-        status = begin(&batch, model, n_design, vehicles, options, error);
+        status = begin(&batch, n, planned, options, run, error);
     if (status == CZ_OK && records)
         status = record_begin(&recording, &batch, run[0], error);
     const double t1 = cz_clock();
     if (status == CZ_OK)
-        status = march(&batch, run, records ? &recording : NULL, error);
+        status = march(&batch, records ? &recording : NULL, error);
     if (status == CZ_OK && records)
         record_end(&recording);
     const double t2 = cz_clock();
     batch_free(&batch);
     if (status != CZ_OK)
-        free_runs(n_design, run);
+        free_runs(n, run);
     else
-        for (int design = 0; design < n_design; ++design) {
-            run[design]->summary.setup_s = (t1 - t0) / n_design;
-            run[design]->summary.wall_s = (t2 - t1) / n_design;
+        for (int i = 0; i < n; ++i) {
+            run[i]->summary.setup_s = (t1 - t0) / n;
+            run[i]->summary.wall_s = (t2 - t1) / n;
         }
     return status;
 }
 
-CzStatus cz_simulate_batch(const CzModel *model, int n_design, const CzVehicle *const *vehicles,
-                           const CzSimulateOptions *options, CzRun **run, CzError *error) {
+CzStatus cz_simulate_batch(int n, const CzPlannedRun *planned, const CzSimulateOptions *options,
+                           CzRun **run, CzError *error) {
     const CzSimulateOptions chosen = options != NULL ? *options : cz_simulate_options_default();
     if (chosen.integrator == CZ_INTEGRATOR_ZHAI)
-        return simulate_together(model, n_design, vehicles, &chosen, run, error);
+        return simulate_together(n, planned, &chosen, run, error);
     /* With adaptive steps the results of a design would depend on its neighbours. */
     CzStatus status = CZ_OK;
     int n_made = 0;
-    for (; n_made < n_design && status == CZ_OK; ++n_made)
-        status = simulate_together(model, 1, vehicles != NULL ? &vehicles[n_made] : NULL, &chosen,
-                                   &run[n_made], error);
+    for (; n_made < n && status == CZ_OK; ++n_made)
+        status = simulate_together(1, &planned[n_made], &chosen, &run[n_made], error);
     if (status != CZ_OK)
         free_runs(n_made, run);
     return status;
@@ -333,7 +377,7 @@ CzStatus cz_simulate_batch(const CzModel *model, int n_design, const CzVehicle *
 
 CzStatus cz_simulate(const CzModel *model, const CzSimulateOptions *options, CzRun **run,
                      CzError *error) {
-    return cz_simulate_batch(model, 1, NULL, options, run, error);
+    return cz_simulate_batch(1, &(CzPlannedRun){model, NULL}, options, run, error);
 }
 
 void cz_run_free(CzRun *run) {

@@ -50,11 +50,11 @@ int cz_budget_order(const CzVehicleBudget *budget, int order[CZ_N_BUDGET]) {
 }
 
 CzBudget *cz_budget_begin(CzBatch *batch, CzArena *arena) {
-    const size_t n = (size_t)batch->model->n_car, n_block = (size_t)batch->dynamics->n_block;
+    const size_t n = (size_t)batch->n_car, n_block = (size_t)batch->dynamics->n_block;
     CzBudget *budget = cz_arena_allocate(arena, 1, sizeof *budget);
     if (budget == NULL)
         return NULL;
-    budget->n_car = batch->model->n_car;
+    budget->n_car = batch->n_car;
     budget->kept = cz_arena_allocate(arena, n, sizeof *budget->kept);
     budget->block = batch->dynamics->block;
     budget->face = cz_arena_allocate(&batch->arena, n, sizeof *budget->face);
@@ -157,7 +157,7 @@ void cz_budget_add(CzBudget *budget, const CzBatch *batch) {
         return; /* later motion is beyond the model */
     add_pushing_faces(budget, batch);
     for (int car = 0; car < budget->n_car; ++car)
-        if (batch->model->car[car].model == CZ_MODEL_FULL)
+        if (cz_car(batch, car, 0)->model == CZ_MODEL_FULL)
             keep(budget, batch, car);
 }
 

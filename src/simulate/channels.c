@@ -27,7 +27,7 @@ static void put(Writer *writer, CzChannel channel, int place, double value) {
 
 static void put_car(Writer *writer, int car) {
     const CzBatch *batch = writer->batch;
-    const CzCar *description = &batch->model->car[car];
+    const CzCar *description = cz_car(batch, car, 0);
     const size_t lane = cz_lane(batch, car, 0);
     const double acceleration =
         cz_block_of(batch->dynamics, lane)->acceleration.body.x[lane % CZ_LANE_BLOCK];
@@ -107,9 +107,9 @@ static void put_all(Writer *writer) {
     const CzBatch *batch = writer->batch;
     cz_accounts_take(batch, 0);
     put(writer, CZ_CHANNEL_TIME, 0, 1e3 * batch->time);
-    for (int car = 0; car < batch->model->n_car; ++car)
+    for (int car = 0; car < batch->n_car; ++car)
         put_car(writer, car);
-    for (int interface = 0; interface + 1 < batch->model->n_car; ++interface)
+    for (int interface = 0; interface + 1 < batch->n_car; ++interface)
         put_interface(writer, interface);
     put_energy(writer);
 }

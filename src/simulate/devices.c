@@ -26,8 +26,9 @@ static const Class classes[CZ_N_DEVICE] = {
 };
 
 /* Whether the side has the connection to which the device belongs; a bare wall has none. */
-static bool has_element(const CzBatch *batch, size_t lane, int car, CzDeviceClass class) {
-    const bool full = batch->model->car[car].model == CZ_MODEL_FULL;
+static bool has_element(const CzBatch *batch, size_t lane, int car, int design,
+                        CzDeviceClass class) {
+    const bool full = cz_car(batch, car, design)->model == CZ_MODEL_FULL;
     if (class == CZ_DEVICE_END || class == CZ_DEVICE_MASSLESS_END)
         return full == (class == CZ_DEVICE_END);
     const CzInterfaceEquipment *of = &batch->equipment[lane];
@@ -62,9 +63,10 @@ static CzDevice device_of(const CzBatch *batch, int interface, int design, int s
     const int which = slides ? 0 : of_car ? 1 - side : side; /* side A is a front end */
     const size_t own = cz_lane(batch, of_car ? car : interface, design);
     const double usable = usable_of(batch, kind, which, own);
-    const bool is_there = usable < CZ_MISSING &&
-                          has_element(batch, cz_lane(batch, interface, design), car, class) &&
-                          (!slides || has_slide(batch, car, design, side));
+    const bool is_there =
+        usable < CZ_MISSING &&
+        has_element(batch, cz_lane(batch, interface, design), car, design, class) &&
+        (!slides || has_slide(batch, car, design, side));
     return (CzDevice){.class = class,
                       .element = kind->element,
                       .text = kind->text,

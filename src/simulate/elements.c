@@ -14,9 +14,9 @@ static double usable(const CzBatch *batch, int curve, size_t lane) {
     return stroke < CZ_MISSING ? stroke : INFINITY;
 }
 
-static void name_element(CzElementResult *result, const CzBatch *batch) {
+static void name_element(CzElementResult *result, const CzBatch *batch, int design) {
     snprintf(result->name, sizeof result->name, "%s %s", cz_element_text(result->kind),
-             batch->model->car[result->vehicle].name);
+             cz_car(batch, result->vehicle, design)->name);
 }
 
 static void add_account(CzElementResult *result, CzAccount account) {
@@ -123,8 +123,8 @@ static void split_zones(const CzBatch *batch, const CzEnd *end, int curve, size_
  * zone. */
 static bool has_end(const CzBatch *batch, int car, int design, int side) {
     const CzEnd *end = cz_end_at(batch, car, design, side);
-    return end->given &&
-           (end->n_stages > 0 || end->curve.given || batch->model->car[car].model == CZ_MODEL_FULL);
+    return end->given && (end->n_stages > 0 || end->curve.given ||
+                          cz_car(batch, car, design)->model == CZ_MODEL_FULL);
 }
 
 /* Share of an end in the bare faces of its interface. */
@@ -153,7 +153,7 @@ static bool fill_end(const CzBatch *batch, size_t lane, int side, int car, int d
                      CzElementResult *result) {
     if (!has_end(batch, car, design, side))
         return false;
-    if (batch->model->car[car].model == CZ_MODEL_FULL)
+    if (cz_car(batch, car, design)->model == CZ_MODEL_FULL)
         fill_end_mass(batch, cz_lane(batch, car, design), 1 - side, result);
     else {
         result->kind = CZ_ELEMENT_END;
@@ -169,13 +169,13 @@ static bool fill_end(const CzBatch *batch, size_t lane, int side, int car, int d
 }
 
 bool cz_outer_end_fill(const CzBatch *batch, int design, int side, CzElementResult *result) {
-    const int car = side == 0 ? batch->model->n_car - 1 : 0;
+    const int car = side == 0 ? batch->n_car - 1 : 0;
     *result = (CzElementResult){0};
-    if (batch->model->car[car].model != CZ_MODEL_FULL || !has_end(batch, car, design, side))
+    if (cz_car(batch, car, design)->model != CZ_MODEL_FULL || !has_end(batch, car, design, side))
         return false;
     fill_end_mass(batch, cz_lane(batch, car, design), 1 - side, result);
     result->vehicle = car;
-    name_element(result, batch);
+    name_element(result, batch, design);
     return true;
 }
 
@@ -183,7 +183,7 @@ bool cz_outer_end_fill(const CzBatch *batch, int design, int side, CzElementResu
 static void fill_zones(const CzBatch *batch, size_t lane, int side, int design,
                        CzElementResult *result) {
     const int car = result->vehicle;
-    const bool slaved = batch->model->car[car].model != CZ_MODEL_FULL;
+    const bool slaved = cz_car(batch, car, design)->model != CZ_MODEL_FULL;
     const int which = side == 0 ? 1 : 0; /* front or rear end of the car */
     split_zones(batch, cz_end_at(batch, car, design, side),
                 slaved ? CZ_CURVE(massless[side]) : CZ_CURVE(end[which]),
@@ -267,7 +267,7 @@ static void fill_climbing(const CzBatch *batch, int interface, int design,
 }
 
 void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterfaceResult *result) {
-    const CzModel *model = batch->model;
+    const CzModel *model = batch->design[design].model;
     const size_t lane = cz_lane(batch, interface, design);
     snprintf(result->name, sizeof result->name, "%s", model->interface_name[interface]);
     result->peak_force = cz_extreme(batch, CZ_EXTREME(interface_force), lane);
@@ -289,7 +289,7 @@ void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterf
         const int n = fill_side(batch, lane, side, interface + side, design, first);
         cz_devices_judge(batch, interface, design, side, n, first);
         for (int k = 0; k < n; ++k) {
-            name_element(&first[k], batch);
+            name_element(&first[k], batch, design);
             if (first[k].kind == CZ_ELEMENT_END)
                 fill_zones(batch, lane, side, design, &first[k]);
         }
@@ -309,7 +309,7 @@ static double survival_shortening(const CzBatch *batch, int car, int design) {
         const CzEnd *end = cz_end_at(batch, car, design, side);
         const int interface = side == 0 ? car : car - 1;
         CzElementResult result = {0};
-        if (interface < 0 || interface >= batch->model->n_car - 1 ||
+        if (interface < 0 || interface >= batch->n_car - 1 ||
             !fill_end(batch, cz_lane(batch, interface, design), side, car, design, &result))
             continue;
         cz_devices_judge(batch, interface, design, side, 1, &result);
@@ -332,7 +332,7 @@ static double survival_shortening(const CzBatch *batch, int car, int design) {
 }
 
 CzStatus cz_vehicle_fill(const CzBatch *batch, int car, int design, CzVehicleResult *result) {
-    const CzCar *description = &batch->model->car[car];
+    const CzCar *description = cz_car(batch, car, design);
     const size_t lane = cz_lane(batch, car, design);
     snprintf(result->name, sizeof result->name, "%s", description->name);
     result->final_speed = cz_velocity(batch, CZ_DOF(body.x), lane);

@@ -63,12 +63,13 @@ static bool is_finite(const CzDynamics *dynamics) {
 
 /* Fails the design when a number is not finite; names the first degree of freedom. */
 static bool fails_to_be_finite(CzBatch *batch, int design) {
-    for (int car = 0; car < batch->model->n_car; ++car)
+    for (int car = 0; car < batch->n_car; ++car)
         for (int dof = 0; dof < CZ_N_DOF; ++dof) {
             const size_t lane = cz_lane(batch, car, design);
             if (isfinite(cz_velocity(batch, dof, lane)) && isfinite(cz_position(batch, dof, lane)))
                 continue;
-            fail(batch, design, batch->model->car[car].name, dof_text[dof], "not a finite number");
+            fail(batch, design, cz_car(batch, car, design)->name, dof_text[dof],
+                 "not a finite number");
             return true;
         }
     return false;
@@ -84,7 +85,7 @@ static bool fails_to_balance(CzBatch *batch, int design) {
         return false;
     int worst_car = 0, worst_row = 0;
     double largest = 0.0;
-    for (int car = 0; car < batch->model->n_car; ++car)
+    for (int car = 0; car < batch->n_car; ++car)
         for (int row = 0; row < CZ_N_LEDGER; ++row) {
             const double work = fabs(cz_work(batch, row, cz_lane(batch, car, design)));
             if (work > largest) {
@@ -93,7 +94,7 @@ static bool fails_to_balance(CzBatch *batch, int design) {
                 worst_row = row;
             }
         }
-    fail(batch, design, batch->model->car[worst_car].name, ledger_text[worst_row],
+    fail(batch, design, cz_car(batch, worst_car, design)->name, ledger_text[worst_row],
          "energy balance lost (most work here)");
     return true;
 }
@@ -110,7 +111,7 @@ static void check_energies(CzBatch *batch, int design) {
 
 /* Fails the design when a series chain was left unbalanced or a member deviates from its law. */
 static bool fails_to_solve(CzBatch *batch, int design) {
-    for (int car = 0; car + 1 < batch->model->n_car; ++car) {
+    for (int car = 0; car + 1 < batch->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
         const double open = cz_extreme(batch, CZ_EXTREME(chain_residual), lane);
         const double off = cz_law_error(batch, lane);
@@ -123,7 +124,7 @@ static bool fails_to_solve(CzBatch *batch, int design) {
                      "force error of a chain member: %.3g %% of the largest force", 100.0 * off);
         else
             continue;
-        fail(batch, design, batch->model->interface_name[car], "series chain", what);
+        fail(batch, design, batch->design[design].model->interface_name[car], "series chain", what);
         return true;
     }
     return false;
@@ -145,7 +146,7 @@ static const struct {
 
 /* Fails the design when a device has crushed further than its interface ever closed. */
 static bool fails_to_fit(CzBatch *batch, int design) {
-    for (int car = 0; car + 1 < batch->model->n_car; ++car)
+    for (int car = 0; car + 1 < batch->n_car; ++car)
         for (int k = 0; k < N_PLASTIC; ++k) {
             const size_t lane = cz_lane(batch, car, design);
             double largest = 0.0;
@@ -154,7 +155,7 @@ static bool fails_to_fit(CzBatch *batch, int design) {
             if (largest <=
                 fmax(cz_extreme(batch, plastic[k].closure, lane), 0.0) + LARGEST_RESIDUAL)
                 continue;
-            fail(batch, design, batch->model->interface_name[car], plastic[k].chain,
+            fail(batch, design, batch->design[design].model->interface_name[car], plastic[k].chain,
                  "a stroke larger than the closure");
             return true;
         }
@@ -166,8 +167,7 @@ static bool fails_to_fit(CzBatch *batch, int design) {
  * model's validity. */
 static bool fails_to_keep_apart(CzBatch *batch, int design) {
     char what[160];
-    for (int car = 0; car + 1 < batch->model->n_car && isnan(batch->design[design].override_time);
-         ++car)
+    for (int car = 0; car + 1 < batch->n_car && isnan(batch->design[design].override_time); ++car)
         for (int side = 0; side < 2; ++side) {
             const size_t lane = cz_lane(batch, car, design);
             const double length = batch->equipment[lane].side[side].strut_length;
@@ -179,7 +179,7 @@ static bool fails_to_keep_apart(CzBatch *batch, int design) {
             snprintf(what, sizeof what,
                      "shortened by %.0f mm, more than the %.0f mm from its pivot to its face",
                      1e3 * shortened, 1e3 * length);
-            fail(batch, design, batch->model->car[car + side].name, "coupler", what);
+            fail(batch, design, cz_car(batch, car + side, design)->name, "coupler", what);
             return true;
         }
     return false;
@@ -188,7 +188,7 @@ static bool fails_to_keep_apart(CzBatch *batch, int design) {
 /* Sum of all plastic strokes and the travel of a buffer stop: it grows while anything crushes. */
 static double plastic_strokes(const CzBatch *batch, int design) {
     double sum = 0.0;
-    for (int car = 0; car < batch->model->n_car; ++car) {
+    for (int car = 0; car < batch->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
         for (int k = 0; k < 2 * N_PLASTIC; ++k)
             sum += cz_memory(batch, plastic[k / 2].stroke[k % 2], lane);
@@ -206,11 +206,12 @@ static double rolling_resistance(const CzBatch *batch, int car, int design) {
     int first = car, last = car;
     while (first > 0 && !cz_interface_can_open(batch, first - 1, design))
         --first;
-    while (last + 1 < batch->model->n_car && !cz_interface_can_open(batch, last, design))
+    while (last + 1 < batch->n_car && !cz_interface_can_open(batch, last, design))
         ++last;
     double mass = 0.0, slowed = 0.0;
     for (int i = first; i <= last; ++i) {
-        const CzVehicle *vehicle = &batch->vehicles[design][batch->model->car[i].vehicle];
+        const CzVehicle *vehicle =
+            &batch->design[design].vehicles[cz_car(batch, i, design)->vehicle];
         mass += vehicle->mass;
         slowed += vehicle->mass * vehicle->rolling_resistance;
     }
@@ -254,7 +255,7 @@ static double speed_at_meeting(double speed, const Ahead *ahead, double room) {
  * closure so far: nothing between them is longer. */
 static double meeting_speed(const CzBatch *batch, int design) {
     double largest = 0.0;
-    for (int car = 1; car < batch->model->n_car; ++car) {
+    for (int car = 1; car < batch->n_car; ++car) {
         const Ahead ahead = car_ahead(batch, car, design);
         double room = 0.0;
         for (int behind = car - 1; behind >= 0; --behind) {
@@ -274,7 +275,7 @@ static double meeting_speed(const CzBatch *batch, int design) {
 static bool can_meet_again(const CzBatch *batch, int design) {
     static const int forces[] = {CZ_MEMORY(coupler.force), CZ_MEMORY(face.force),
                                  CZ_MEMORY(side_buffers.force)};
-    for (int car = 0; car + 1 < batch->model->n_car; ++car) {
+    for (int car = 0; car + 1 < batch->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
         bool together = !cz_interface_can_open(batch, car, design);
         for (size_t k = 0; k < sizeof forces / sizeof forces[0]; ++k)
@@ -309,12 +310,13 @@ static double holds_since(bool holds, double since, double now) {
 static bool wheels_are_off(CzBatch *batch, int design) {
     CzProgressOfDesign *progress = &batch->design[design];
     bool off = false;
-    for (int car = 0; car < batch->model->n_car; ++car) {
-        const CzCar *description = &batch->model->car[car];
+    for (int car = 0; car < batch->n_car; ++car) {
+        const CzCar *description = cz_car(batch, car, design);
         if (description->model != CZ_MODEL_FULL)
             continue;
         const size_t lane = cz_lane(batch, car, design);
-        const double flange = batch->vehicles[design][description->vehicle].bogie.flange_height;
+        const double flange =
+            batch->design[design].vehicles[description->vehicle].bogie.flange_height;
         for (int axle = 0; axle < 4; ++axle) {
             const double lift = -cz_published(batch, CZ_PUBLISHED(wheel[axle].approach), lane);
             off |= lift > 0.0;
@@ -328,7 +330,7 @@ static bool wheels_are_off(CzBatch *batch, int design) {
 
 static void look_for_climbing(CzBatch *batch, int design) {
     CzProgressOfDesign *progress = &batch->design[design];
-    for (int car = 0; car + 1 < batch->model->n_car; ++car) {
+    for (int car = 0; car + 1 < batch->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
         if (cz_extreme(batch, CZ_EXTREME(face_climbed), lane) > 0.0)
             progress->override_time =
@@ -355,14 +357,15 @@ static void look_at(CzBatch *batch, int design, bool finite) {
     const CzLoadLeft left = cz_interface_loads_look(batch, design);
     const double initial = progress->initial_energy;
     progress->awaited = awaited(batch, design, off, crushes, &left);
-    const bool settled = batch->brief && !off && !crushes &&
-                         left.energy <= MEETING_SHARE * MEETING_SHARE * initial &&
-                         meeting_speed(batch, design) <= MEETING_SHARE * batch->closing_speed;
+    const bool settled =
+        batch->brief && !off && !crushes &&
+        left.energy <= MEETING_SHARE * MEETING_SHARE * initial &&
+        meeting_speed(batch, design) <= MEETING_SHARE * batch->design[design].closing_speed;
     progress->quiet_since =
         holds_since(progress->awaited == NULL, progress->quiet_since, batch->time);
     progress->settled_since = holds_since(settled, progress->settled_since, batch->time);
 
-    const CzModel *model = batch->model;
+    const CzModel *model = batch->design[design].model;
     if (!isnan(model->duration)) {
         if (batch->time >= model->duration - 0.5 * batch->step)
             end(progress, CZ_ENDED_DURATION);
@@ -376,13 +379,13 @@ static void look_at(CzBatch *batch, int design, bool finite) {
     check_energies(batch, design);
 }
 
-bool cz_ending_look(CzBatch *batch) {
-    bool all_over = true;
+int cz_ending_look(CzBatch *batch, bool is_time) {
+    int n_left = 0;
     const bool finite = is_finite(batch->dynamics);
     for (int design = 0; design < batch->n_design; ++design) {
-        if (!batch->design[design].over)
+        if (!batch->design[design].over && cz_ending_is_due(batch, design, is_time))
             look_at(batch, design, finite);
-        all_over &= batch->design[design].over;
+        n_left += !batch->design[design].over;
     }
-    return all_over;
+    return n_left;
 }

@@ -59,7 +59,7 @@ static double apparent_return(const CzBatch *batch, const CzElementResult *eleme
                               int design, int side) {
     const size_t lane = cz_lane(batch, interface, design);
     const double corners = CORNERS * fmax(element->energy + element->stored, 0.0);
-    const double stroke = fabs(batch->closing_speed) * batch->step;
+    const double stroke = fabs(batch->design[design].closing_speed) * batch->step;
     if (element->kind == CZ_ELEMENT_COUPLER)
         return corners + cz_coupler_touch(batch->dynamics, lane, side, stroke);
     if (element->kind == CZ_ELEMENT_SIDE_BUFFERS)
@@ -76,12 +76,11 @@ static double apparent_return_at_stop(const CzBatch *batch, CzElementResult *ele
 
 /* Whether an element has returned more than it received, beyond what is allowed, or stores less
  * than 0. */
-static bool creates_energy(const CzBatch *batch, const CzElementResult *element, double allowed,
+static bool creates_energy(const char *vehicle, const CzElementResult *element, double allowed,
                            double rounding, const Fault *fault) {
     const bool has_returned = !(element->energy >= -allowed - rounding); /* true for NaN */
     if (!has_returned && element->stored >= -rounding)
         return false;
-    const char *vehicle = batch->model->car[element->vehicle].name;
     return has_returned ? note(fault, vehicle, cz_element_text(element->kind),
                                "returned %.4g kJ more than it received", -1e-3 * element->energy)
                         : note(fault, vehicle, cz_element_text(element->kind),
@@ -94,7 +93,7 @@ static bool some_element_creates_energy(const CzBatch *batch, int design, double
                                         double *sum, const Fault *fault) {
     CzElementResult element[CZ_MAX_ELEMENTS];
     bool found = false;
-    for (int i = 0; i + 1 < batch->model->n_car; ++i) {
+    for (int i = 0; i + 1 < batch->n_car; ++i) {
         const int n = cz_interface_elements(batch, i, design, element);
         for (int k = 0; k < n; ++k) {
             const int side = element[k].vehicle - i;
@@ -103,13 +102,15 @@ static bool some_element_creates_energy(const CzBatch *batch, int design, double
                 allowed =
                     fmax(allowed, apparent_return_at_stop(batch, &element[k], i, design, side));
             *sum += element[k].energy;
-            found = found || creates_energy(batch, &element[k], allowed, rounding, fault);
+            found = found || creates_energy(cz_car(batch, element[k].vehicle, design)->name,
+                                            &element[k], allowed, rounding, fault);
         }
     }
     for (int side = 0; side < 2; ++side)
         if (cz_outer_end_fill(batch, design, side, element)) {
             *sum += element[0].energy;
-            found = found || creates_energy(batch, element, 0.0, rounding, fault);
+            found = found || creates_energy(cz_car(batch, element->vehicle, design)->name, element,
+                                            0.0, rounding, fault);
         }
     return found;
 }
@@ -125,8 +126,8 @@ static bool running_gear_creates_energy(const CzBatch *batch, int design, double
                    {"primary suspension", CZ_LEDGER(primary), offsetof(CzStored, primary)},
                    {"traction links", CZ_LEDGER(link), offsetof(CzStored, link)},
                    {"axle guidance", CZ_LEDGER(axle_guidance), offsetof(CzStored, axle_guidance)}};
-    for (int car = 0; car < batch->model->n_car; ++car) {
-        if (batch->model->car[car].model != CZ_MODEL_FULL)
+    for (int car = 0; car < batch->n_car; ++car) {
+        if (cz_car(batch, car, design)->model != CZ_MODEL_FULL)
             continue;
         const size_t lane = cz_lane(batch, car, design);
         for (size_t k = 0; k < sizeof springs / sizeof springs[0]; ++k) {
@@ -134,7 +135,7 @@ static bool running_gear_creates_energy(const CzBatch *batch, int design, double
                 *(const double *)((const char *)&batch->stored[lane] + springs[k].stored);
             const double given = stored - cz_work(batch, springs[k].row, lane);
             if (!(given <= allowed))
-                return note(fault, batch->model->car[car].name, springs[k].what,
+                return note(fault, cz_car(batch, car, design)->name, springs[k].what,
                             "returned %.4g kJ more than it received", 1e-3 * given);
         }
     }
@@ -150,7 +151,7 @@ static bool differs(const char *name, const char *kind, double given, double rec
 }
 
 static bool bodies_differ(const CzBatch *batch, int design, double allowed, const Fault *fault) {
-    const CzModel *model = batch->model;
+    const CzModel *model = batch->design[design].model;
     for (int car = 0; car < model->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
         const double given = cz_work(batch, CZ_LEDGER(coupler), lane) +
@@ -173,13 +174,13 @@ static bool bodies_differ(const CzBatch *batch, int design, double allowed, cons
 /* Energy that an elastic track may release when wheels come to rest between two seats instead of
  * over one: half the square of a load times the difference of the flexibilities. */
 static double released_by_track(const CzBatch *batch, int design) {
-    const CzTrackModes *track = batch->model->track;
+    const CzTrackModes *track = batch->design[design].model->track;
     if (track == NULL)
         return 0.0;
     const double softer = cz_ring_flexibility(&track->seats, track->n_seat, 0.5) -
                           cz_ring_flexibility(&track->seats, track->n_seat, 0.0);
     double released = 0.0;
-    for (int car = 0; car < batch->model->n_car; ++car) {
+    for (int car = 0; car < batch->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design), i = lane % CZ_LANE_BLOCK;
         for (int axle = 0; axle < 4; ++axle) {
             const double load = cz_block_of(batch->dynamics, lane)->constant.static_load[axle][i];

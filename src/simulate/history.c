@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #define SHORTEST_CONTACT 0.03 /* shortest contact window that counts [s] (ours) */
 #define WINDOW 0.12           /* [s] */
@@ -11,37 +10,35 @@
     0.01 /* of the largest net force: a smaller force counts as no contact (ours)                  \
           */
 
-CzStatus cz_history_add(CzHistory *history, const CzBatch *batch) {
-    const CzDynamics *dynamics = batch->dynamics;
-    const size_t row = history->stride;
+CzStatus cz_history_add(const CzBatch *batch, int design) {
+    CzHistory *history = &batch->design[design].history;
+    const size_t n_car = (size_t)batch->n_car;
     if (history->n_sample == history->n_chunk * CZ_CHUNK) {
         double **chunks = realloc(history->chunk, (size_t)(history->n_chunk + 1) * sizeof *chunks);
         if (chunks == NULL)
             return CZ_STATUS_NO_MEMORY;
         history->chunk = chunks;
-        chunks[history->n_chunk] = malloc(2 * CZ_CHUNK * row * sizeof(double));
+        chunks[history->n_chunk] = malloc(2 * CZ_CHUNK * n_car * sizeof(double));
         if (chunks[history->n_chunk] == NULL)
             return CZ_STATUS_NO_MEMORY;
         ++history->n_chunk;
     }
     double *sample =
-        history->chunk[history->n_chunk - 1] + (size_t)(history->n_sample % CZ_CHUNK) * 2 * row;
-    for (int i = 0; i < dynamics->n_block; ++i, sample += CZ_LANE_BLOCK) {
-        const CzBlock *block = &dynamics->block[i];
-        memcpy(sample, block->velocity.body.x, sizeof(CzRow));
-        memcpy(sample + row, block->published.interface.force, sizeof(CzRow));
+        history->chunk[history->n_chunk - 1] + (size_t)(history->n_sample % CZ_CHUNK) * 2 * n_car;
+    for (int car = 0; car < batch->n_car; ++car, sample += 2) {
+        const size_t lane = cz_lane(batch, car, design), i = lane % CZ_LANE_BLOCK;
+        const CzBlock *block = cz_block_of(batch->dynamics, lane);
+        sample[0] = block->velocity.body.x[i];
+        sample[1] = block->published.interface.force[i];
     }
     ++history->n_sample;
     return CZ_OK;
 }
 
-static const double *sample_at(const CzHistory *history, int sample) {
-    return history->chunk[sample / CZ_CHUNK] + (size_t)(sample % CZ_CHUNK) * 2 * history->stride;
-}
-
-/* Force of the interface in a lane. */
-static double force_at(const CzHistory *history, int sample, size_t lane) {
-    return sample_at(history, sample)[history->stride + lane];
+/* Speed of a car, and force of the interface ahead of it. */
+static const double *sample_of(const CzBatch *batch, int sample, int car, int design) {
+    const double *chunk = batch->design[design].history.chunk[sample / CZ_CHUNK];
+    return chunk + 2 * (sample % CZ_CHUNK * batch->n_car + car);
 }
 
 void cz_history_free(CzHistory *history) {
@@ -54,10 +51,9 @@ void cz_history_free(CzHistory *history) {
 
 /* Net contact force on a car: the push from behind less the push from ahead. */
 static double net_force(const CzBatch *batch, int sample, int car, int design) {
-    const CzHistory *history = &batch->history;
-    const bool first = car == 0, last = car == batch->model->n_car - 1;
-    const double behind = first ? 0.0 : force_at(history, sample, cz_lane(batch, car - 1, design));
-    return behind - (last ? 0.0 : force_at(history, sample, cz_lane(batch, car, design)));
+    const bool first = car == 0, last = car == batch->n_car - 1;
+    const double behind = first ? 0.0 : sample_of(batch, sample, car - 1, design)[1];
+    return behind - (last ? 0.0 : sample_of(batch, sample, car, design)[1]);
 }
 
 /* Largest |change of speed| / time over the intervals in which the net contact force keeps its sign
@@ -143,20 +139,20 @@ static double window_mean(const double *speed, int n_sample, double step, double
 
 CzStatus cz_history_decelerations(const CzBatch *batch, int car, int design,
                                   CzVehicleResult *result) {
-    const CzHistory *history = &batch->history;
-    const size_t lane = cz_lane(batch, car, design);
+    const CzHistory *history = &batch->design[design].history;
+    const double step = batch->history_step;
     double *speed = malloc((size_t)history->n_sample * sizeof *speed);
     double *force = malloc((size_t)history->n_sample * sizeof *force);
     const bool fits = speed != NULL && force != NULL;
     for (int i = 0; fits && i < history->n_sample; ++i) {
-        speed[i] = sample_at(history, i)[lane];
+        speed[i] = sample_of(batch, i, car, design)[0];
         force[i] = net_force(batch, i, car, design);
     }
     if (fits) {
         result->mean_deceleration_contact =
-            contact_mean(speed, force, history->n_sample, history->step, result->contact_window);
+            contact_mean(speed, force, history->n_sample, step, result->contact_window);
         result->mean_deceleration_120ms =
-            window_mean(speed, history->n_sample, history->step, result->window_120ms);
+            window_mean(speed, history->n_sample, step, result->window_120ms);
     }
     free(speed);
     free(force);

@@ -30,8 +30,12 @@ struct CzInterfaceLoad {
 };
 
 CzInterfaceLoad *cz_interface_loads_begin(const CzBatch *batch, CzArena *arena) {
-    const size_t n = (size_t)batch->model->n_car * (size_t)batch->n_design;
+    const size_t n = (size_t)batch->n_car * (size_t)batch->n_design;
     return cz_arena_allocate(arena, n, sizeof(CzInterfaceLoad));
+}
+
+void cz_interface_load_move(CzBatch *batch, size_t lane, const CzBatch *from, size_t from_lane) {
+    batch->load[lane] = from->load[from_lane];
 }
 
 bool cz_interface_can_open(const CzBatch *batch, int interface, int design) {
@@ -90,7 +94,7 @@ CzLoadLeft cz_interface_loads_look(const CzBatch *batch, int design) {
     CzLoadLeft left = {.energy = 0.0};
     double oscillating = 0.0;
     bool rests = is_at_rest(batch, 0, design);
-    for (int interface = 0; interface + 1 < batch->model->n_car; ++interface) {
+    for (int interface = 0; interface + 1 < batch->n_car; ++interface) {
         const size_t lane = cz_lane(batch, interface, design);
         const bool rests_behind = rests;
         rests = is_at_rest(batch, interface + 1, design);

@@ -59,7 +59,7 @@ static bool moves(const CzBatch *batch, int row, size_t lane) {
 /* Lists the degrees of freedom that move and the impulse of each car, with their allowed errors. */
 static size_t list_places(const CzBatch *batch, Place *place, double *allowed, double tolerance) {
     size_t n = 0;
-    for (int car = 0; car < batch->model->n_car; car++) {
+    for (int car = 0; car < batch->n_car; car++) {
         const size_t lane = cz_lane(batch, car, 0), i = lane % CZ_LANE_BLOCK;
         CzBlock *block = cz_block_of(batch->dynamics, lane);
         for (int row = 0; row < CZ_N_DOF; row++) {
@@ -152,7 +152,7 @@ static void drops(CzOde *ode, double time, const double *state, double *value) {
 /* Lists the shear-offs of all interfaces. */
 static int list_drops(const CzBatch *batch, Drop *drop) {
     int n = 0;
-    for (int i = 0; i < 2 * (batch->model->n_car - 1); i++) {
+    for (int i = 0; i < 2 * (batch->n_car - 1); i++) {
         const size_t lane = cz_lane(batch, i / 2, 0);
         if (batch->equipment[lane].side[i % 2].shears_off)
             drop[n++] =
@@ -177,7 +177,7 @@ static void set_allowed(const CzReference *reference, double tolerance, double *
 CzStatus cz_reference_create(CzBatch *batch, CzMethod method, double tolerance, CzReference **made,
                              CzError *error) {
     CzArena *arena = &batch->arena;
-    const size_t n_car = (size_t)batch->model->n_car, most = n_car * (CZ_N_DOF + 1);
+    const size_t n_car = (size_t)batch->n_car, most = n_car * (CZ_N_DOF + 1);
     const size_t n_lane = (size_t)batch->dynamics->n_block * CZ_LANE_BLOCK;
     size_t n_track = 0;
     *made = NULL;

@@ -22,19 +22,23 @@ struct CzRun {
     CzChannels channels;
 };
 
-/* Body speeds and interface forces at the sampling step, for all lanes of a batch. */
+/* Body speeds and interface forces of a design at the sampling step. */
 typedef struct CzHistory {
-    double step; /* [s] */
-    size_t stride;
     int n_sample;
     int n_chunk;
-    double **chunk; /* CZ_CHUNK samples each: speeds, then forces */
+    double **chunk; /* CZ_CHUNK samples each: speed and force of each car in turn */
 } CzHistory;
 enum { CZ_CHUNK = 256 };
 
 /* State of one design of a batch. */
 typedef struct CzProgressOfDesign {
-    bool over;
+    const CzModel *model;      /* borrowed, as are the vehicles */
+    const CzVehicle *vehicles; /* of the model's problem, with the design's values */
+    CzRun *run;                /* receives the summary */
+    double closing_speed;      /* of the trains at t = 0 [m/s] */
+    CzHistory history;
+    long last; /* step with which its duration ends; 0 without one */
+    bool over, has_summary;
     CzEnded ended;
     char failure[256];
     double initial_energy;
@@ -60,25 +64,25 @@ typedef struct CzTrackAccount {
     CzRow stored; /* [J] */
 } CzTrackAccount;
 
-/* A batch that is simulated. */
+/* A batch that is simulated: designs, each in its own scenario. */
 typedef struct CzBatch {
     CzArena arena;
-    const CzModel *model;
+    CzArena laid; /* lanes, dynamics and all other data by lane or block */
+    int n_car;    /* of every design */
     const CzKernel *kernel;
     CzLanes *lanes;
     CzDynamics *dynamics;
-    CzInterfaceEquipment *equipment;  /* by lane */
-    CzStored *stored;                 /* by lane, when the accounts were taken */
-    CzTrackAccount *in_track;         /* by block */
-    const CzVehicle *const *vehicles; /* (n_design) */
-    int n_design;
-    bool brief; /* end as soon as the results are final */
+    CzInterfaceEquipment *equipment; /* by lane */
+    CzStored *stored;                /* by lane, when the accounts were taken */
+    CzTrackAccount *in_track;        /* by block */
+    int n_design;                    /* in the lanes: runs that are over may have left them */
+    bool brief;                      /* end as soon as the results are final */
+    CzTrack track;
     CzIntegrator integrator;
     struct CzReference *reference; /* NULL under the fixed-step scheme */
-    double closing_speed;          /* of the trains at t = 0 [m/s] */
     double step, time;             /* [s] */
     long n_step;
-    CzHistory history;
+    double history_step;          /* of the samples [s] */
     CzProgressOfDesign *design;   /* (n_design) */
     struct CzInterfaceLoad *load; /* by lane */
 } CzBatch;
@@ -86,6 +90,11 @@ typedef struct CzBatch {
 /* Lane of a car of a design. */
 static inline size_t cz_lane(const CzBatch *batch, int car, int design) {
     return (size_t)car * (size_t)batch->n_design + (size_t)design;
+}
+
+/* Description of a car of a design. */
+static inline const CzCar *cz_car(const CzBatch *batch, int car, int design) {
+    return &batch->design[design].model->car[car];
 }
 
 /* Values in a lane. */
@@ -119,7 +128,7 @@ double cz_largest_closing_speed(const CzBatch *batch, int design);
 
 /* The end of a car at side A (0) or B (1) of an interface; side A is a front end. */
 static inline const CzEnd *cz_end_at(const CzBatch *batch, int car, int design, int side) {
-    const CzVehicle *vehicle = &batch->vehicles[design][batch->model->car[car].vehicle];
+    const CzVehicle *vehicle = &batch->design[design].vehicles[cz_car(batch, car, design)->vehicle];
     return side == 0 ? &vehicle->front : &vehicle->rear;
 }
 
@@ -132,7 +141,7 @@ static inline const CzEnd *cz_end_at(const CzBatch *batch, int car, int design, 
     { CZ_CURVE(pair[0]), CZ_CURVE(pair[1]) }
 
 /* history.c */
-CZ_MUST_CHECK CzStatus cz_history_add(CzHistory *history, const CzBatch *batch);
+CZ_MUST_CHECK CzStatus cz_history_add(const CzBatch *batch, int design);
 void cz_history_free(CzHistory *history);
 /* Largest mean deceleration of a car over windows of net contact force, and over any window of 120
  * ms or more, with these windows. */
@@ -202,10 +211,22 @@ typedef struct CzLoadLeft {
 /* Whether the two sides can part. */
 bool cz_interface_can_open(const CzBatch *batch, int interface, int design);
 CzInterfaceLoad *cz_interface_loads_begin(const CzBatch *batch, CzArena *arena);
+void cz_interface_load_move(CzBatch *batch, size_t lane, const CzBatch *from, size_t from_lane);
 CzLoadLeft cz_interface_loads_look(const CzBatch *batch, int design);
 
-/* ending.c: examines all designs; true when the run of every one is over. */
-bool cz_ending_look(CzBatch *batch);
+/* ending.c: whether a design is examined after this step, which is one after which all are or the
+ * end of its own duration. */
+static inline bool cz_ending_is_due(const CzBatch *batch, int design, bool is_time) {
+    return is_time || batch->design[design].last == batch->n_step;
+}
+/* Examines the designs; returns how many are not over. */
+int cz_ending_look(CzBatch *batch, bool is_time);
+
+/* batch_lanes.c: creates the dynamics, the tracks and all other data of filled lanes. */
+CZ_MUST_CHECK CzStatus cz_batch_lay(CzBatch *batch, CzError *error);
+/* Takes the designs that are over out of the lanes where the other n_left > 0 then need fewer
+ * blocks; these are counted anew. */
+CZ_MUST_CHECK CzStatus cz_batch_close_up(CzBatch *batch, int n_left, CzError *error);
 
 /* summary.c */
 CZ_MUST_CHECK CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run);

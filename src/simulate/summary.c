@@ -12,7 +12,7 @@
 /* Sum of the rows of a ledger class or list over all cars. */
 static double work_of(const CzBatch *batch, int design, int row) {
     double work = 0.0;
-    for (int car = 0; car < batch->model->n_car; ++car)
+    for (int car = 0; car < batch->n_car; ++car)
         work += cz_work(batch, row, cz_lane(batch, car, design));
     return work;
 }
@@ -20,7 +20,7 @@ static double work_of(const CzBatch *batch, int design, int row) {
 /* Elastic energy in elements that store and dissipate. */
 static double stored_in_mixed(const CzBatch *batch, int design) {
     double stored = 0.0;
-    for (int car = 0; car < batch->model->n_car; ++car) {
+    for (int car = 0; car < batch->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
         stored += cz_chains_account(batch, lane).stored + cz_springs_account(batch, lane).stored +
                   cz_gear_account(batch, lane).stored;
@@ -45,7 +45,7 @@ CzEnergy cz_energy_fill(const CzBatch *batch, int design) {
     double in_track = 0.0;
     energy.initial = progress->initial_energy;
     energy.final_kinetic = progress->kinetic;
-    for (int car = 0; car < batch->model->n_car; ++car)
+    for (int car = 0; car < batch->n_car; ++car)
         in_track += cz_track_account(batch, cz_lane(batch, car, design));
     energy.stored += stored_in_mixed(batch, design) + in_track;
     energy.moving_load = work_of(batch, design, CZ_LEDGER(moving_load));
@@ -63,15 +63,15 @@ CzEnergy cz_energy_fill(const CzBatch *batch, int design) {
 static double plastic_energy(const CzBatch *batch, int design) {
     double mass[2] = {0.0, 0.0}, speed[2] = {0.0, 0.0};
     bool fixed[2] = {false, false};
-    for (int car = 0; car < batch->model->n_car; ++car) {
-        const int train = batch->model->car[car].train;
+    for (int car = 0; car < batch->n_car; ++car) {
+        const int train = cz_car(batch, car, design)->train;
         const size_t lane = cz_lane(batch, car, design);
         for (int dof = 0; dof < CZ_N_DOF; ++dof) {
             const double m = *cz_lane_mass(batch->lanes, dof, lane);
             mass[train] += cz_axis_of(dof) == CZ_AXIS_ALONG ? m : 0.0;
         }
         speed[train] = *cz_lane_velocity(batch->lanes, CZ_DOF(body.x), lane);
-        fixed[train] |= batch->model->car[car].model == CZ_MODEL_FIXED;
+        fixed[train] |= cz_car(batch, car, design)->model == CZ_MODEL_FIXED;
     }
     const double dv = speed[0] - speed[1];
     const double reduced = fixed[0]   ? mass[1]
@@ -90,7 +90,7 @@ static double share_of(double part, double dissipated) {
  */
 static void fill_chains(const CzBatch *batch, int design, CzRunSummary *summary) {
     double searched = 0.0;
-    for (int car = 0; car + 1 < batch->model->n_car; ++car) {
+    for (int car = 0; car + 1 < batch->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
         summary->law_error = fmax(summary->law_error, cz_law_error(batch, lane));
         searched += cz_extreme(batch, CZ_EXTREME(searched), lane);
@@ -128,18 +128,18 @@ static void blank_vehicle(CzVehicleResult *result) {
 
 static CzStatus fill_critical_forces(const CzBatch *batch, int design, CzRun *run,
                                      CzInterfaceResult *interface) {
-    const int n_interface = batch->model->n_car - 1;
+    const int n_interface = batch->n_car - 1;
     double *force = cz_arena_allocate(&run->arena, (size_t)n_interface, sizeof *force);
     if (force == NULL)
         return CZ_STATUS_NO_MEMORY;
-    CZ_TRY(cz_critical_forces(batch->model, batch->lanes, design, force, NULL));
+    CZ_TRY(cz_critical_forces(batch->design[design].model, batch->lanes, design, force, NULL));
     for (int i = 0; i < n_interface; ++i)
         interface[i].critical_force = force[i];
     return CZ_OK;
 }
 
 CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
-    const CzModel *model = batch->model;
+    const CzModel *model = batch->design[design].model;
     const CzProgressOfDesign *progress = &batch->design[design];
     const int n_interface = model->n_car - 1;
     CzInterfaceResult *interface =

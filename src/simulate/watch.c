@@ -93,13 +93,13 @@ static void watch_devices(CzWatch *list, const CzBatch *batch, int interface, in
             watch(list, device[i].is_followed ? CZ_EVENT_TUBE_EXHAUSTED : CZ_EVENT_BOTTOMED_OUT,
                   device[i].from_extremes ? FROM_EXTREME : FROM_MEMORY, device[i].row,
                   device[i].lane, device[i].usable, device[i].text,
-                  batch->model->car[interface + side].name);
+                  cz_car(batch, interface + side, 0)->name);
 }
 
 static void watch_side(CzWatch *list, const CzBatch *batch, int interface, int side) {
     const size_t lane = cz_lane(batch, interface, 0), own = cz_lane(batch, interface + side, 0);
     const CzInterfaceEquipment *of = &batch->equipment[lane];
-    const char *name = batch->model->car[interface + side].name;
+    const char *name = cz_car(batch, interface + side, 0)->name;
     const int which = side == 0 ? 1 : 0;
     watch(list, CZ_EVENT_TUBE_ACTIVATION, FROM_MEMORY, CZ_MEMORY(coupler.side[side].tube), lane,
           CRUSHED, "coupler", name);
@@ -115,7 +115,7 @@ static void watch_side(CzWatch *list, const CzBatch *batch, int interface, int s
         watch(list, CZ_EVENT_END_CRUSH, FROM_MEMORY, CZ_MEMORY(face.side[side].massless.peak), lane,
               first_stage(batch, massless, lane), "end", name);
     }
-    if (batch->model->car[interface + side].model == CZ_MODEL_FULL) {
+    if (cz_car(batch, interface + side, 0)->model == CZ_MODEL_FULL) {
         const int end = CZ_CURVE(end[which]);
         watch(list, CZ_EVENT_END_CRUSH, FROM_MEMORY, CZ_MEMORY(end[which].peak), own,
               first_stage(batch, end, own), "end", name);
@@ -127,7 +127,7 @@ static void watch_side(CzWatch *list, const CzBatch *batch, int interface, int s
 
 static void watch_interface(CzWatch *list, const CzBatch *batch, int interface) {
     const size_t lane = cz_lane(batch, interface, 0);
-    const char *name = batch->model->interface_name[interface];
+    const char *name = batch->design[0].model->interface_name[interface];
     watch(list, CZ_EVENT_CONTACT, FROM_EXTREME, CZ_EXTREME(interface_force), lane, 1e3, "", name);
     watch(list, CZ_EVENT_ANTI_CLIMBER_CONTACT, FROM_MEMORY, CZ_MEMORY(face.speed), lane, 0.0, "",
           name);
@@ -141,7 +141,7 @@ static void watch_interface(CzWatch *list, const CzBatch *batch, int interface) 
 static void watch_car(CzWatch *list, const CzBatch *batch, int car) {
     static const char *const bogie_name[] = {"rear bogie", "front bogie"};
     const size_t lane = cz_lane(batch, car, 0);
-    const CzCar *description = &batch->model->car[car];
+    const CzCar *description = cz_car(batch, car, 0);
     if (description->model != CZ_MODEL_FULL)
         return;
     for (int axle = 0; axle < 4; ++axle) {
@@ -151,7 +151,7 @@ static void watch_car(CzWatch *list, const CzBatch *batch, int car) {
               description->name);
         if (description->has_stops)
             watch(list, CZ_EVENT_OVERRIDE, FROM_EXTREME, CZ_EXTREME(lift[axle]), lane,
-                  batch->vehicles[0][description->vehicle].bogie.flange_height, kind,
+                  batch->design[0].vehicles[description->vehicle].bogie.flange_height, kind,
                   description->name);
     }
     const CzCarEquipment of = cz_car_equipment(batch->lanes, lane);
@@ -184,7 +184,7 @@ static void clear_limits(CzWatch *list, const CzBatch *batch) {
 
 CzWatch *cz_watch_begin(const CzBatch *batch, CzArena *arena) {
     CzWatch *list = cz_arena_allocate(arena, 1, sizeof *list);
-    const size_t most = (size_t)batch->model->n_car * MOST_PER_CAR;
+    const size_t most = (size_t)batch->n_car * MOST_PER_CAR;
     const size_t n_limit = (size_t)batch->dynamics->n_block * MOST_GUARDS;
     if (list == NULL)
         return NULL;
@@ -194,9 +194,9 @@ CzWatch *cz_watch_begin(const CzBatch *batch, CzArena *arena) {
     list->event = cz_arena_allocate(arena, most, sizeof *list->event);
     if (list->watched == NULL || list->guard == NULL || list->limit == NULL || list->event == NULL)
         return NULL;
-    for (int car = 0; car < batch->model->n_car; ++car) {
+    for (int car = 0; car < batch->n_car; ++car) {
         list->interface = car;
-        if (car + 1 < batch->model->n_car)
+        if (car + 1 < batch->n_car)
             watch_interface(list, batch, car);
         list->interface = -1;
         watch_car(list, batch, car);

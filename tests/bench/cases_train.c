@@ -59,8 +59,11 @@ BenchRun *bench_train(int n, const char *track) {
 /* Runs all designs once and gives the first run, to be freed. */
 static CzRun *simulate(const BenchRun *run) {
     CzRun *made[MOST_DESIGNS] = {NULL};
+    CzPlannedRun planned[MOST_DESIGNS];
     CzError error = {0};
-    if (cz_simulate_batch(run->model, run->n_design, NULL, &run->options, made, &error) != CZ_OK)
+    for (int i = 0; i < run->n_design; i++)
+        planned[i] = (CzPlannedRun){run->model, NULL};
+    if (cz_simulate_batch(run->n_design, planned, &run->options, made, &error) != CZ_OK)
         bench_stop(error.message);
     for (int i = 0; i < run->n_design; i++)
         if (cz_run_summary(made[i])->status != CZ_OK)
@@ -147,6 +150,33 @@ static void add_threads(Bench *bench, int n_design) {
     }
 }
 
+/* Designs of a problem in all of its scenarios on one thread; a time for each run. */
+static void add_scenarios(Bench *bench, const char *key, const char *what, const char *file,
+                          const char *only, int n_design, int n_scenario) {
+    CzEvaluatorOptions options = cz_evaluator_options_default();
+    Search *made = calloc(1, sizeof *made);
+    CzError error = {0};
+    options.n_job = 1;
+    options.scenario = only;
+    if (made == NULL ||
+        cz_evaluator_build(bench_read(file, NULL), &options, &made->evaluator, &error) != CZ_OK)
+        bench_stop(made == NULL ? "no memory" : error.message);
+    made->n_design = n_design;
+    bench_add(bench, key, what, search, made)->per = n_design * n_scenario;
+}
+
+static void add_mixed(Bench *bench) {
+    const char *const metro = "problems/metro-6-car.yaml", *const samples =
+                                                               "tests/bench/samples.yaml";
+    add_scenarios(bench, "scenarios.metro.1", "a run of 1 design in 7 scenarios, metro", metro,
+                  NULL, 1, 7);
+    add_scenarios(bench, "scenarios.metro.12", "a run of 12 designs in 7 scenarios, metro", metro,
+                  NULL, 12, 7);
+    add_scenarios(bench, "scenarios.pair.64", "a run of 64 scenarios, 1+1", samples, NULL, 1, 64);
+    add_scenarios(bench, "scenarios.pair.1", "one of these scenarios alone", samples,
+                  "sample_30km_h_5mm_0.25", 1, 1);
+}
+
 void bench_add_batches(Bench *bench, bool is_short) {
     char key[48], what[96];
     for (int n = 1; n <= (is_short ? 1 : 8); n *= 8)
@@ -159,8 +189,10 @@ void bench_add_batches(Bench *bench, bool is_short) {
                      n, n);
             bench_add(bench, key, what, bench_run, run)->per = n_design;
         }
-    if (!is_short)
-        add_threads(bench, 24);
+    if (is_short)
+        return;
+    add_threads(bench, 24);
+    add_mixed(bench);
 }
 
 /* ---- gradient ---- */

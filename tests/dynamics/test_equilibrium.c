@@ -66,7 +66,7 @@ static void an_elastic_track_lowers_the_wheels(void **state) {
     const CzRest rest = rest_in(&motion.collision, 0);
     motion.dynamics = cz_dynamics_create(motion.lanes, &motion.arena);
     assert_true(
-        cz_dynamics_lay_track(motion.dynamics, model->track, CZ_TRACK_MODAL, 0.0, &motion.arena));
+        cz_dynamics_lay_track(motion.dynamics, &model->track, CZ_TRACK_MODAL, 0.0, &motion.arena));
     for (int axle = 0; axle < 4; axle++) {
         const double approach = motion.dynamics->block[0].constant.wheel_rest[axle][0];
         assert_near(rest.axle_load[axle], cz_model_vehicle_properties(model, 0).axle_load[axle],

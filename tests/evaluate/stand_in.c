@@ -188,11 +188,23 @@ static CzRun *simulate(const CzModel *model, const CzVehicle *vehicles, bool bri
     return run;
 }
 
-CzStatus cz_simulate_batch(const CzModel *model, int n_design, const CzVehicle *const *vehicles,
-                           const CzSimulateOptions *options, CzRun **run, CzError *error) {
+int cz_simulate_n_block(const CzModel *model, int n) {
+    (void)model;
+    return n;
+}
+
+bool cz_simulate_fits(const CzModel *a, const CzModel *b, const CzSimulateOptions *options) {
+    (void)a;
+    (void)b;
+    (void)options;
+    return true;
+}
+
+CzStatus cz_simulate_batch(int n, const CzPlannedRun *planned, const CzSimulateOptions *options,
+                           CzRun **run, CzError *error) {
     (void)error;
-    for (int i = 0; i < n_design; i++)
-        run[i] = simulate(model, vehicles[i], options->brief);
-    __atomic_fetch_add(&stand_in.n_run, n_design, __ATOMIC_RELAXED);
+    for (int i = 0; i < n; i++)
+        run[i] = simulate(planned[i].model, planned[i].vehicles, options->brief);
+    __atomic_fetch_add(&stand_in.n_run, n, __ATOMIC_RELAXED);
     return CZ_OK;
 }

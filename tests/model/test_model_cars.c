@@ -56,7 +56,7 @@ static void a_rigid_car_has_one_coordinate(void **state) {
         assert_near(mass_of(&built, 0, dof), dof == CZ_DOF(body.x) ? 40e3 : 0.0, 0.0, 0.0);
         assert_near(mass_of(&built, 1, dof), 0.0, 0.0, 0.0);
     }
-    assert_false(built.lanes->has_full_cars);
+    assert_false(built.lanes->has.full_cars);
     free_model(&built);
 }
 
@@ -78,7 +78,7 @@ static void all_masses_of_a_full_car_move_at_its_speed_and_add_up(void **state) 
                 0.0);
     assert_near(parameter(&built, 0, CZ_PARAMETER(inverse.body.mass)), 1.0 / (32000.0 - 2000.0),
                 ROUNDING_OF_A_FORMULA, 0.0);
-    assert_true(built.lanes->has_full_cars);
+    assert_true(built.lanes->has.full_cars);
     free_model(&built);
 }
 

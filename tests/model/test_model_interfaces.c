@@ -259,8 +259,8 @@ static void side_buffers_push_in_pairs(void **state) {
     struct CzProblem problem;
     typed_problem_init(&problem, 1, &car, 1, &wagon, 10.0);
     Built built = build_model(&problem);
-    assert_true(built.lanes->has_side_buffers);
-    assert_false(built.lanes->has_couplers);
+    assert_true(built.lanes->has.side_buffers);
+    assert_false(built.lanes->has.couplers);
     assert_near(parameter(&built, 0, CZ_PARAMETER(side_buffers.exists)), 1.0, 0.0, 0.0);
     assert_near(parameter(&built, 0, CZ_PARAMETER(side_buffers.contact.distance)), 0.0, 0.0,
                 ROUNDING_OF_A_VALUE);

@@ -71,11 +71,11 @@ static inline Collision collide_changed(const char *file, const char *const *set
     memcpy(vehicles, own, (size_t)n_vehicle * sizeof *vehicles);
     for (int i = 0; i < n_vehicle; i++)
         change(&vehicles[i], value);
-    const CzVehicle *design = vehicles;
+    const CzPlannedRun planned = {collision.model, vehicles};
     CzSimulateOptions options = cz_simulate_options_default();
     options.time_step = step;
     CzError error = {0};
-    if (cz_simulate_batch(collision.model, 1, &design, &options, &collision.run, &error) != CZ_OK)
+    if (cz_simulate_batch(1, &planned, &options, &collision.run, &error) != CZ_OK)
         fail_msg("%s", error.message);
     collision.summary = cz_run_summary(collision.run);
     free(vehicles);

@@ -39,7 +39,7 @@ static inline void motion_lay(Motion *motion) {
     assert_non_null(motion->dynamics);
     const CzTrackModes *track = motion->collision.model->track;
     if (track != NULL)
-        assert_true(cz_dynamics_lay_track(motion->dynamics, track,
+        assert_true(cz_dynamics_lay_track(motion->dynamics, &track,
                                           (CzTrack)motion->collision.model->simulation->track,
                                           motion->step, &motion->arena));
 }

@@ -11,19 +11,32 @@ typedef struct Case {
     CzModel *model;
 } Case;
 
-/* `set` is one setting, or NULL. */
-static Case case_open(const char *file, const char *set) {
+/* A scenario of a file with up to MOST_SET settings. */
+enum { MOST_SET = 3 };
+typedef struct Written {
+    const char *file;
+    int scenario;
+    const char *set[MOST_SET];
+} Written;
+
+static Case case_written(const Written *written) {
     char path[512];
-    snprintf(path, sizeof path, "%s/problems/%s", CZ_SOURCE_FOLDER, file);
+    snprintf(path, sizeof path, "%s/problems/%s", CZ_SOURCE_FOLDER, written->file);
     CzProblemOptions options = cz_problem_options_default();
-    options.set = &set;
-    options.n_set = set != NULL;
+    options.set = written->set;
+    while (options.n_set < MOST_SET && written->set[options.n_set] != NULL)
+        options.n_set++;
     CzError error = {0};
     Case opened = {0};
     if (cz_problem_read(path, &options, &opened.problem, &error) != CZ_OK ||
-        cz_model_build(opened.problem, 0, &opened.model, &error) != CZ_OK)
+        cz_model_build(opened.problem, written->scenario, &opened.model, &error) != CZ_OK)
         fail_msg("%s:%d: %s", error.file, error.line, error.message);
     return opened;
+}
+
+/* `set` is one setting, or NULL. */
+static Case case_open(const char *file, const char *set) {
+    return case_written(&(Written){file, 0, {set}});
 }
 
 static void case_close(Case *opened) {
@@ -36,11 +49,15 @@ static size_t numbers_of(const CzRun *run, double *number, size_t n_most) {
     size_t n = 0;
     const CzRunSummary *summary = cz_run_summary(run);
     const double scalars[] = {
-        (double)summary->status,       (double)summary->ended,      summary->simulated,
-        (double)summary->n_step,       summary->energy.initial,     summary->energy.final_kinetic,
-        summary->energy.dissipated,    summary->energy.stored,      summary->energy.wheel_rail,
-        summary->energy.balance_error, summary->energy.absorbers,   summary->momentum_error,
-        summary->energy.track,         summary->energy.moving_load, summary->closing_speed,
+        (double)summary->status,     (double)summary->ended,
+        summary->simulated,          (double)summary->n_step,
+        summary->energy.initial,     summary->energy.final_kinetic,
+        summary->energy.dissipated,  summary->energy.stored,
+        summary->energy.wheel_rail,  summary->energy.balance_error,
+        summary->energy.absorbers,   summary->momentum_error,
+        summary->energy.track,       summary->energy.moving_load,
+        summary->closing_speed,      summary->law_error,
+        (double)summary->n_searched, summary->plastic_energy,
         (double)summary->n_event,
     };
     for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++)
@@ -52,6 +69,13 @@ static size_t numbers_of(const CzRun *run, double *number, size_t n_most) {
         number[n++] = interface->peak_force;
         number[n++] = interface->shortening;
         number[n++] = interface->energy;
+        number[n++] = interface->peak_time;
+        number[n++] = interface->min_overlap;
+        number[n++] = interface->vertical_margin;
+        for (int side = 0; side < 2; side++) {
+            number[n++] = interface->section_force[side];
+            number[n++] = interface->swing[side];
+        }
         for (int element = 0; element < interface->n_element; element++) {
             number[n++] = interface->element[element].energy;
             number[n++] = interface->element[element].stroke;
@@ -64,6 +88,10 @@ static size_t numbers_of(const CzRun *run, double *number, size_t n_most) {
         number[n++] = vehicle->peak_deceleration;
         number[n++] = vehicle->mean_deceleration_120ms;
         number[n++] = vehicle->max_pitch;
+        number[n++] = vehicle->mean_deceleration_contact;
+        number[n++] = vehicle->contact_window[1];
+        number[n++] = vehicle->link_force;
+        number[n++] = vehicle->bogie_lift_time;
         for (int wheelset = 0; wheelset < 4; wheelset++)
             number[n++] = vehicle->wheel_lift[wheelset];
     }
@@ -162,20 +190,20 @@ static void check_batch(const char *file, const char *set) {
     const CzVehicle *own = cz_problem_vehicles(opened.problem, &n_vehicle);
     CzVehicle *vehicles = malloc(sizeof *vehicles * (size_t)(N_DESIGN * n_vehicle));
     assert_non_null(vehicles);
-    const CzVehicle *design[N_DESIGN];
+    CzPlannedRun design[N_DESIGN];
     for (int i = 0; i < N_DESIGN; i++) {
         CzVehicle *copy = &vehicles[i * n_vehicle];
         memcpy(copy, own, sizeof *own * (size_t)n_vehicle);
         if (i != OWN)
             vary(copy, n_vehicle, i);
-        design[i] = copy;
+        design[i] = (CzPlannedRun){opened.model, copy};
     }
 
     CzSimulateOptions options = cz_simulate_options_default();
     options.record = false; /* channels are recorded for one design only */
     CzRun *run[N_DESIGN] = {0};
     CzError error = {0};
-    if (cz_simulate_batch(opened.model, N_DESIGN, design, &options, run, &error) != CZ_OK)
+    if (cz_simulate_batch(N_DESIGN, design, &options, run, &error) != CZ_OK)
         fail_msg("%s", error.message);
     CzRun *alone = run_alone(opened.model, "auto", false);
     assert_same_run(run[OWN], alone);
@@ -184,8 +212,7 @@ static void check_batch(const char *file, const char *set) {
     assert_true(cz_run_summary(run[0])->energy.dissipated !=
                 cz_run_summary(run[OWN])->energy.dissipated);
     CzRun *neighbour = NULL;
-    if (cz_simulate_batch(opened.model, 1, &design[N_DESIGN - 1], &options, &neighbour, &error) !=
-        CZ_OK)
+    if (cz_simulate_batch(1, &design[N_DESIGN - 1], &options, &neighbour, &error) != CZ_OK)
         fail_msg("%s", error.message);
     assert_same_run(run[N_DESIGN - 1], neighbour);
 
@@ -213,6 +240,105 @@ static void a_design_among_others_is_what_it_is_alone_on_elastic_rails(void **st
         check_batch("paper-25kmh.yaml", elastic[i]);
 }
 
+/* ---- runs of several models ---- */
+
+enum { MOST_MIXED = 16 };
+
+static void simulate_mixed(const Case *mixed, int first, int n, int step, bool brief, CzRun **run) {
+    CzPlannedRun planned[MOST_MIXED];
+    CzSimulateOptions options = cz_simulate_options_default();
+    CzError error = {0};
+    options.record = false;
+    options.brief = brief;
+    for (int i = 0; i < n; i++) {
+        planned[i] = (CzPlannedRun){mixed[first + i * step].model, NULL};
+        assert_true(cz_simulate_fits(planned[0].model, planned[i].model, &options));
+    }
+    if (cz_simulate_batch(n, planned, &options, run, &error) != CZ_OK)
+        fail_msg("%s", error.message);
+}
+
+/* Runs each model alone, all in one batch, all in reverse order, and some of them. */
+static void check_mixed(const Written *written, int n, bool brief) {
+    Case mixed[MOST_MIXED];
+    CzRun *alone[MOST_MIXED], *among[MOST_MIXED];
+    for (int i = 0; i < n; i++) {
+        mixed[i] = case_written(&written[i]);
+        simulate_mixed(mixed, i, 1, 1, brief, &alone[i]);
+    }
+    const struct {
+        int first, n, step;
+    } order[] = {{0, n, 1}, {n - 1, n, -1}, {1, n / 2, 2}, {n / 3, 3, 1}};
+    for (size_t k = 0; k < sizeof order / sizeof order[0]; k++) {
+        simulate_mixed(mixed, order[k].first, order[k].n, order[k].step, brief, among);
+        for (int i = 0; i < order[k].n; i++) {
+            assert_same_run(among[i], alone[order[k].first + i * order[k].step]);
+            cz_run_free(among[i]);
+        }
+    }
+    long first = cz_run_summary(alone[0])->n_step;
+    bool differ = false;
+    for (int i = 0; i < n; i++) {
+        differ = differ || cz_run_summary(alone[i])->n_step != first;
+        cz_run_free(alone[i]);
+        case_close(&mixed[i]);
+    }
+    assert_true(differ); /* some leave the lanes before others */
+}
+
+static void scenarios_side_by_side_are_what_they_are_alone(void **state) {
+    (void)state;
+    static const Written metro[] = {
+        {.file = "metro-6-car.yaml", .scenario = 0}, {.file = "metro-6-car.yaml", .scenario = 1},
+        {.file = "metro-6-car.yaml", .scenario = 2}, {.file = "metro-6-car.yaml", .scenario = 3},
+        {.file = "metro-6-car.yaml", .scenario = 4}, {.file = "metro-6-car.yaml", .scenario = 5},
+        {.file = "metro-6-car.yaml", .scenario = 6},
+    };
+    check_mixed(metro, sizeof metro / sizeof metro[0], true);
+}
+
+#define PAIR "two-cars-25kmh.yaml"
+#define ELASTIC "simulation.track=receptance"
+/* Masses, friction, brakes, speeds, heights, durations, and tracks of different stiffness. */
+static const Written variants[] = {
+    {PAIR, 0, {ELASTIC}},
+    {PAIR, 0, {ELASTIC, "parts.paper-car.mass_t=39"}},
+    {PAIR, 0, {ELASTIC, "trains.A.speed_km_h=20", "trains.B.speed_km_h=-10"}},
+    {PAIR, 0, {ELASTIC, "simulation.adhesion.friction=0.2"}},
+    {PAIR, 0, {ELASTIC, "trains.B.brake.ratio=0.1", "trains.B.brake.axle_share=1"}},
+    {PAIR, 0, {ELASTIC, "trains.B.height_offset_mm=30"}},
+    {PAIR, 0, {ELASTIC, "simulation.duration_ms=123.4"}},
+    {PAIR, 0, {ELASTIC, "track.ballast_stiffness_N_m=6e7"}},
+    {PAIR, 0, {ELASTIC, "track.sleeper_spacing_mm=650", "track.ballast_stiffness_N_m=2e8"}},
+    {PAIR, 0, {ELASTIC, "trains.A.vehicles.A1.bogie.axle_spacing_mm=2200"}},
+    {PAIR, 0, {ELASTIC, "trains.B.vehicles.B1.bogie_spacing_mm=11000"}},
+    {PAIR, 0, {ELASTIC, "simulation.duration_ms=200"}},
+};
+
+static void variants_side_by_side_are_what_they_are_alone(void **state) {
+    (void)state;
+    check_mixed(variants, sizeof variants / sizeof variants[0], false);
+}
+
+/* Runs of other time steps, tracks or numbers of cars do not share a batch. */
+static void only_models_that_fit_share_a_batch(void **state) {
+    (void)state;
+    static const Written others[] = {
+        {PAIR, 0, {ELASTIC, "simulation.time_step_ms=0.05"}},
+        {PAIR, 0, {"simulation.track=rigid"}},
+        {PAIR, 0, {"simulation.track=modal"}},
+        {.file = "metro-6-car.yaml"},
+    };
+    const CzSimulateOptions options = cz_simulate_options_default();
+    Case own = case_open(PAIR, ELASTIC);
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
+        Case other = case_written(&others[i]);
+        assert_false(cz_simulate_fits(own.model, other.model, &options));
+        case_close(&other);
+    }
+    case_close(&own);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(instruction_sets_agree_on_two_cars),
@@ -221,6 +347,9 @@ int main(void) {
         cmocka_unit_test(a_design_among_others_is_what_it_is_alone_on_elastic_rails),
         cmocka_unit_test(a_design_among_others_is_what_it_is_alone_for_two_cars),
         cmocka_unit_test(a_design_among_others_is_what_it_is_alone_for_two_trains),
+        cmocka_unit_test(scenarios_side_by_side_are_what_they_are_alone),
+        cmocka_unit_test(variants_side_by_side_are_what_they_are_alone),
+        cmocka_unit_test(only_models_that_fit_share_a_batch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

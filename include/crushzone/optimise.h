@@ -29,10 +29,11 @@ typedef struct CzProgress {
 /* One evaluation as a search received it. With all of them a search is repeated without a run.
  * Arrays are borrowed; their values are NaN when the design failed. */
 typedef struct CzAnswer {
-    const double *x;          /* in the variables' units (n_variable) */
-    double objective;         /* in its unit */
-    const double *constraint; /* as in CzEvaluation (n_constraint) */
-    const double *detail;     /* constraints place by place (cz_evaluator_n_detail) */
+    const double *x;            /* in the variables' units (n_variable) */
+    double objective;           /* in its unit */
+    int n_constraint, n_detail; /* more of them in later rounds of a robust search */
+    const double *constraint;   /* as in CzEvaluation (n_constraint) */
+    const double *detail;       /* constraints place by place (n_detail) */
 } CzAnswer;
 
 /* Evaluations that a search made side by side, in order. */

@@ -9,6 +9,12 @@ static size_t design_size(const CzReplay *replay) {
     return (size_t)cz_evaluator_n_variable(replay->evaluator) * sizeof(double);
 }
 
+/* Whether an answer has the constraints of the evaluator. */
+static bool is_of_evaluator(const CzReplay *replay, const CzAnswer *answer) {
+    return answer->n_constraint == cz_evaluator_n_constraint(replay->evaluator) &&
+           answer->n_detail == cz_evaluator_n_detail(replay->evaluator);
+}
+
 CzStatus cz_replay_begin(CzReplay *replay, CzEvaluator *evaluator, const CzJournal *journal,
                          CzError *error) {
     *replay = (CzReplay){.evaluator = evaluator, .journal = journal};
@@ -21,7 +27,8 @@ CzStatus cz_replay_begin(CzReplay *replay, CzEvaluator *evaluator, const CzJourn
     bool has_memory = replay->best_x != NULL;
     for (long i = 0; i < journal->n_earlier && has_memory; i++) {
         const char *design = (const char *)journal->answer[i].x;
-        if (cz_index_find(&replay->earlier, design, size) < 0)
+        if (is_of_evaluator(replay, &journal->answer[i]) &&
+            cz_index_find(&replay->earlier, design, size) < 0)
             has_memory = cz_index_add(&replay->earlier, design, size, (int)i);
     }
     return has_memory ? CZ_OK : cz_no_memory(error, "the journal");
@@ -59,6 +66,8 @@ static CzAnswer answer_at(const CzReplay *replay, const CzBatch *batch, int desi
     return (CzAnswer){
         .x = batch->x + (size_t)design * (size_t)cz_evaluator_n_variable(evaluator),
         .objective = batch->objective[design],
+        .n_constraint = cz_evaluator_n_constraint(evaluator),
+        .n_detail = cz_evaluator_n_detail(evaluator),
         .constraint =
             batch->constraint + (size_t)design * (size_t)cz_evaluator_n_constraint(evaluator),
         .detail = batch->detail != NULL
@@ -77,7 +86,8 @@ static CzStatus find(CzReplay *replay, const double *x, const CzAnswer **answer,
         *answer = &journal->answer[number];
     else if (replay->next < journal->n_answer)
         *answer = &journal->answer[replay->next++];
-    if (*answer == NULL || memcmp((*answer)->x, x, design_size(replay)) == 0)
+    if (*answer == NULL ||
+        (is_of_evaluator(replay, *answer) && memcmp((*answer)->x, x, design_size(replay)) == 0))
         return CZ_OK;
     return cz_fail(error, CZ_STATUS_INPUT,
                    "evaluation %ld of the journal is of another design than the search asks for",

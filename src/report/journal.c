@@ -158,8 +158,8 @@ void cz_journal_write_entry(const CzJournalStart *start, const CzNews *news, int
     fputs("\"objective\": ", stream);
     write_number(answer->objective, stream);
     fputs(", ", stream);
-    write_numbers("constraints", start->n_constraint, answer->constraint, stream);
-    write_numbers("details", start->n_detail, answer->detail, stream);
+    write_numbers("constraints", answer->n_constraint, answer->constraint, stream);
+    write_numbers("details", answer->n_detail, answer->detail, stream);
     fputs("\"violation\": ", stream);
     write_number(evaluation->violation, stream);
     fputs(", \"margins\": [", stream); /* nothing is computed from them */
@@ -245,13 +245,21 @@ static long cut_whole(Cursor *cursor, const char *before) {
     return cursor->failed ? 0 : (long)value;
 }
 
-static void cut_numbers(Cursor *cursor, const char *before, int n, double *value) {
+/* Removes a list of numbers; *n is their number. */
+static const double *cut_numbers(Cursor *cursor, const char *before, int *n) {
     expect(cursor, before);
-    for (int i = 0; i < n; i++) {
+    const size_t n_byte = cursor->failed ? 0 : strcspn(cursor->at, "]");
+    *n = n_byte > 0;
+    for (size_t i = 0; i < n_byte; i++)
+        *n += cursor->at[i] == ',';
+    double *value = cz_arena_numbers(cursor->arena, (size_t)*n);
+    cursor->failed |= value == NULL;
+    for (int i = 0; i < *n && !cursor->failed; i++) {
         value[i] = cut_number(cursor);
-        expect(cursor, i + 1 < n ? ", " : "");
+        expect(cursor, i + 1 < *n ? ", " : "");
     }
     expect(cursor, "], ");
+    return value;
 }
 
 static const char *const *cut_texts(Cursor *cursor, const char *before, int *n) {
@@ -295,22 +303,15 @@ static bool read_head(char *line, CzArena *arena, CzJournalStart *start) {
 /* Reads an evaluation; false when the line is damaged, or without memory. */
 static bool read_entry(char *line, size_t n_line, const CzJournalStart *start, CzArena *arena,
                        CzAnswer *answer) {
-    const size_t n = (size_t)start->n_variable, m = (size_t)start->n_constraint;
-    const size_t n_detail = (size_t)start->n_detail;
+    int n_variable;
     Cursor cursor = {.at = line, .arena = arena};
-    if (2 * (n + m + n_detail) > n_line) /* a damaged head must not claim all memory */
-        return false;
-    double *number = cz_arena_numbers(arena, n + m + n_detail);
-    if (number == NULL)
-        return false;
-    *answer = (CzAnswer){.x = number, .constraint = number + n, .detail = number + n + m};
-    cut_numbers(&cursor, "{\"x\": [", (int)n, number);
+    answer->x = cut_numbers(&cursor, "{\"x\": [", &n_variable);
     expect(&cursor, "\"objective\": ");
     answer->objective = cut_number(&cursor);
     expect(&cursor, ", ");
-    cut_numbers(&cursor, "\"constraints\": [", (int)m, number + n);
-    cut_numbers(&cursor, "\"details\": [", (int)n_detail, number + n + m);
-    return !cursor.failed && line[n_line - 1] == '}';
+    answer->constraint = cut_numbers(&cursor, "\"constraints\": [", &answer->n_constraint);
+    answer->detail = cut_numbers(&cursor, "\"details\": [", &answer->n_detail);
+    return !cursor.failed && n_variable == start->n_variable && line[n_line - 1] == '}';
 }
 
 static CzStatus damaged(const char *name, long number, const CzArena *arena, CzError *error) {

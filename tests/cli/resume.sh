@@ -5,12 +5,16 @@
 "$C" new -q
 endless="--algorithm GN_CRS2_LM --evaluations 1000000" # the strategy of the file may end early
 lines() { wc -l <"$1"; }
-# kill_search SECONDS OPTION...: a search that dies after a while
+# begun FOLDER: whether a journal has several evaluations
+begun() { for journal in "$1/history.jsonl" "$1/unfinished/history.jsonl"; do [ -f "$journal" ] && [ "$(lines "$journal")" -gt 3 ] && return 0; done; return 1; }
+# kill_search SECONDS OPTION... FOLDER: a search that dies after a while, when it has begun
 kill_search() {
     sleeps=$1
     shift
     "$C" optimise two-trains.yaml "$@" >out.txt 2>err.txt & victim=$!
     sleep "$sleeps"
+    for folder; do :; done
+    until begun "$folder" || ! kill -0 $victim 2>/dev/null; do sleep 0.1; done
     kill -9 $victim && { wait $victim 2>/dev/null || true; }
 }
 # shellcheck disable=SC2086 # $endless is words

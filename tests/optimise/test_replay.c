@@ -43,12 +43,13 @@ static CzStatus keep(const CzNews *news, void *data, CzError *error) {
             return CZ_STATUS_OUTPUT;
         }
         assert_true(kept->n < MOST);
-        kept->answer[kept->n++] = (CzAnswer){
-            .x = copy(news->answer[i].x, cz_evaluator_n_variable(kept->evaluator)),
-            .objective = news->answer[i].objective,
-            .constraint =
-                copy(news->answer[i].constraint, cz_evaluator_n_constraint(kept->evaluator)),
-            .detail = copy(news->answer[i].detail, cz_evaluator_n_detail(kept->evaluator))};
+        kept->answer[kept->n++] =
+            (CzAnswer){.x = copy(news->answer[i].x, cz_evaluator_n_variable(kept->evaluator)),
+                       .objective = news->answer[i].objective,
+                       .n_constraint = news->answer[i].n_constraint,
+                       .n_detail = news->answer[i].n_detail,
+                       .constraint = copy(news->answer[i].constraint, news->answer[i].n_constraint),
+                       .detail = copy(news->answer[i].detail, news->answer[i].n_detail)};
     }
     if (news->best != NULL) {
         memcpy(kept->best, news->best,

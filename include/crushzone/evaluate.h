@@ -137,6 +137,7 @@ typedef struct CzEvaluatorOptions {
     CzIntegrator integrator; /* CZ_INTEGRATOR_ZHAI for production runs */
     const char *scenario;    /* only this scenario or family; NULL for all. Checks of the others are
                                 then NOT CHECKED */
+    int first_scenario;      /* scenarios before this one, counted from 0, are left out likewise */
 } CzEvaluatorOptions;
 CZ_API CzEvaluatorOptions cz_evaluator_options_default(void);
 

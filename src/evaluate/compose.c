@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Reason why a scenario has no values; NULL when it has. */
-static const char *failure_of(const CzRunSummary *run) {
+const char *cz_failure_of(const CzRunSummary *run) {
     if (run == NULL)
         return "this scenario was not run";
     if (run->status != CZ_OK)
@@ -23,10 +22,11 @@ CzSubject cz_subject_of(const CzEvaluator *evaluator, const CzVehicle *vehicles,
                          .vehicles = vehicles,
                          .n_vehicle = evaluator->n_vehicle,
                          .n_first_train = input->trains[0].n_vehicles,
-                         .rate = evaluator->rate,
+                         .rate = evaluator->rate[0],
                          .is_obstacle = evaluator->obstacles.has_vehicle};
     if (scenario != CZ_NO_SCENARIO) {
         subject.scene = &evaluator->scene[scenario];
+        subject.rate = evaluator->rate[subject.scene->variation];
         subject.run = run;
     }
     return subject;
@@ -45,8 +45,11 @@ static CzSubject subject_at(const CzEvaluator *evaluator, const CzVehicle *vehic
     if (check->scenario != CZ_NO_SCENARIO)
         return subject_in(evaluator, vehicles, check->scenario, run);
     const CzVehicle *own = cz_vehicles_in(evaluator, vehicles, check->scene_of_vehicles);
-    return cz_subject_of(evaluator, check->scene_of_vehicles > 0 ? own : vehicles, CZ_NO_SCENARIO,
-                         NULL);
+    const int variation = evaluator->scene[check->scene_of_vehicles].variation;
+    const bool is_changed = check->scene_of_vehicles > 0;
+    CzSubject subject = cz_subject_of(evaluator, is_changed ? own : vehicles, CZ_NO_SCENARIO, NULL);
+    subject.rate = evaluator->rate[is_changed ? variation : 0];
+    return subject;
 }
 
 static double metric_objective(const CzEvaluator *evaluator, const CzVehicle *vehicles,
@@ -127,7 +130,7 @@ static void judge_checks(const CzEvaluator *evaluator, const CzVehicle *vehicles
         const bool is_of_run = check->scenario != CZ_NO_SCENARIO;
         const CzSubject subject = subject_at(evaluator, vehicles, check, run);
         CzCheckResult result =
-            cz_check_judge(check, &subject, is_of_run ? failure_of(subject.run) : NULL);
+            cz_check_judge(check, &subject, is_of_run ? cz_failure_of(subject.run) : NULL);
         /* A search uses the number itself to leave designs that climb. */
         const double required = cz_checklist_required(&evaluator->list, check);
         const double constraint = cz_check_constraint(&result, required);
@@ -181,7 +184,7 @@ static CzStatus judge_matches(const CzEvaluator *evaluator, const CzVehicle *veh
         const CzSubject subject = subject_in(evaluator, vehicles, s, run);
         CzMatchResult *match = &evaluation->match[evaluation->n_match++];
         *match = cz_match_begin(item, subject.scene);
-        if (run[s] != NULL && failure_of(run[s]) == NULL)
+        if (run[s] != NULL && cz_failure_of(run[s]) == NULL)
             CZ_TRY(cz_match_judge(item, &subject, whole[s], match, NULL, error));
         CzCheckResult check = check_of(match);
         check.is_omitted = run[s] == NULL;
@@ -219,12 +222,12 @@ static void note_failure(const CzEvaluator *evaluator, const CzRunSummary *const
     for (int s = 0; s < evaluator->n_scene; s++) {
         const bool has_failed = run[s] != NULL && run[s]->status != CZ_OK;
         const bool is_worse = first == NULL || (has_failed && first->status == CZ_OK);
-        if (run[s] != NULL && failure_of(run[s]) != NULL && is_worse)
+        if (run[s] != NULL && cz_failure_of(run[s]) != NULL && is_worse)
             first = run[s];
     }
     if (first != NULL)
         snprintf(evaluation->failure, sizeof evaluation->failure, "%s: %s", first->scenario,
-                 first->failure[0] != '\0' ? first->failure : failure_of(first));
+                 first->failure[0] != '\0' ? first->failure : cz_failure_of(first));
 }
 
 CzStatus cz_compose(const CzEvaluator *evaluator, const CzVehicle *vehicles,

@@ -4,6 +4,9 @@
 
 #include "evaluate/evaluator_parts.h"
 
+/* Reason why a scenario has no values; NULL when it has. `run` NULL: it was left out. */
+const char *cz_failure_of(const CzRunSummary *run);
+
 /* Source of metrics: a scenario with its run, or the design alone for CZ_NO_SCENARIO and no run. */
 CzSubject cz_subject_of(const CzEvaluator *evaluator, const CzVehicle *vehicles, int scenario,
                         const CzRunSummary *run);

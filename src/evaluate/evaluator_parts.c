@@ -50,9 +50,10 @@ static CzStatus build_variants(CzEvaluator *evaluator, CzError *error) {
         const bool is_own = evaluator->n_variant == evaluator->own;
         if (!cz_design_settings(design, evaluator->n_variant, NULL, arena, &settings))
             return cz_no_memory(error, "the choices");
-        const CzStatus status = cz_variant_build(
-            evaluator->problem, is_own ? NULL : &settings, evaluator->n_scene, evaluator->scene,
-            evaluator->only, &evaluator->variant[evaluator->n_variant], error);
+        const CzStatus status =
+            cz_variant_build(evaluator->problem, is_own ? NULL : &settings, evaluator->n_scene,
+                             evaluator->scene, evaluator->only, evaluator->first_scenario,
+                             &evaluator->variant[evaluator->n_variant], error);
         if (status != CZ_OK)
             return is_own ? status : place_combination(evaluator, &settings, status, error);
     }
@@ -61,9 +62,24 @@ static CzStatus build_variants(CzEvaluator *evaluator, CzError *error) {
     return CZ_OK;
 }
 
+/* The rates of variations do not depend on one another, so that further scenarios change no result.
+ */
+static CzStatus set_rates(CzEvaluator *evaluator, CzError *error) {
+    const size_t n = (size_t)evaluator->n_variation;
+    evaluator->rate = cz_arena_allocate(&evaluator->arena, n, sizeof *evaluator->rate);
+    if (evaluator->rate == NULL)
+        return cz_no_memory(error, "the evaluator");
+    for (int v = 0; v < evaluator->n_variation; v++)
+        for (int s = 0; s < evaluator->n_scene; s++) {
+            const CzScene *scene = &evaluator->scene[s];
+            if (scene->variation == 0 || scene->variation == v)
+                evaluator->rate[v] = fmax(evaluator->rate[v], scene->closing_speed / 2);
+        }
+    return CZ_OK;
+}
+
 static CzStatus build_models(CzEvaluator *evaluator, const char *only, CzError *error) {
-    for (int s = 0; s < evaluator->n_scene; s++)
-        evaluator->rate = fmax(evaluator->rate, evaluator->scene[s].closing_speed / 2);
+    CZ_TRY(set_rates(evaluator, error));
     if (only != NULL) {
         int first;
         CZ_TRY(cz_problem_find_scenario(evaluator->problem, only, &first, error));
@@ -167,6 +183,7 @@ CzStatus cz_evaluator_build(const CzProblem *problem, const CzEvaluatorOptions *
         return cz_no_memory(error, "the evaluator");
     built->problem = problem;
     built->n_job = given.n_job > 0 ? given.n_job : cz_processor_count();
+    built->first_scenario = given.first_scenario;
     built->manner = (CzManner){.step_factor = given.step_factor, .integrator = given.integrator};
     const CzStatus status = build(built, given.scenario, error);
     if (status != CZ_OK) {

@@ -17,6 +17,7 @@ struct CzEvaluator {
     int n_scene;
     CzScene *scene;        /* (n_scene) */
     const char *only;      /* the only scenario that is run; NULL for all */
+    int first_scenario;    /* scenarios before this one are not run */
     int n_variant;         /* one per combination of choices, 1 without any */
     CzVariant *variant;    /* (n_variant) */
     int own;               /* variant of the file as written */
@@ -25,7 +26,8 @@ struct CzEvaluator {
     const CzVehicle *vehicles; /* its vehicles in each variation (n_variation x n_vehicle) */
     double *length; /* simulated time of the last run of each scenario, 0 before the first: for the
                        order of the runs only [s] (n_scene) */
-    double rate;    /* crush rate for tube forces: half the largest closing speed [m/s] */
+    double *rate; /* crush rate for tube forces in each variation: half the largest closing speed of
+                       its scenarios and of those without changes [m/s] (n_variation) */
     CzDesign design;
     CzChecklist list;
     int *constraint_check;        /* check behind each constraint (n_constraint) */

@@ -45,8 +45,9 @@ static CzStatus reread(int index, void *data, CzError *error) {
     CzStatus status;
     const double *x = block->x + index * evaluator->design.n_variable;
     if (cz_design_settings(&evaluator->design, 0, x, &arena, &settings))
-        status = cz_variant_build(evaluator->problem, &settings, evaluator->n_scene,
-                                  evaluator->scene, evaluator->only, variant, error);
+        status =
+            cz_variant_build(evaluator->problem, &settings, evaluator->n_scene, evaluator->scene,
+                             evaluator->only, evaluator->first_scenario, variant, error);
     else
         status = cz_no_memory(error, "the settings of a design");
     block->is_refused[index] = status == CZ_STATUS_INPUT;

@@ -26,21 +26,21 @@ static CzStatus copy_vehicles(const CzProblem *problem, CzVariant *variant, cons
     return CZ_OK;
 }
 
-static CzStatus build(const CzProblem *problem, const CzScene *scene, const char *only,
+static CzStatus build(const CzProblem *problem, const CzScene *scene, const char *only, int first,
                       CzVariant *variant, CzError *error) {
     CZ_TRY(copy_vehicles(problem, variant, scene, error));
     const size_t n_scene = variant->n_scene > 0 ? (size_t)variant->n_scene : 0;
     variant->model = calloc(n_scene + 1, sizeof(CzModel *));
     if (variant->model == NULL)
         return cz_no_memory(error, "the models");
-    for (int s = 0; s < variant->n_scene; s++)
+    for (int s = first; s < variant->n_scene; s++)
         if (only == NULL || cz_scene_is(&scene[s], only))
             CZ_TRY(cz_model_build(problem, s, &variant->model[s], error));
     return CZ_OK;
 }
 
 CzStatus cz_variant_build(const CzProblem *problem, const CzVariantSettings *settings, int n_scene,
-                          const CzScene *scene, const char *only, CzVariant *variant,
+                          const CzScene *scene, const char *only, int first, CzVariant *variant,
                           CzError *error) {
     *variant = (CzVariant){.n_scene = n_scene};
     if (settings != NULL) {
@@ -48,7 +48,7 @@ CzStatus cz_variant_build(const CzProblem *problem, const CzVariantSettings *set
                                      &variant->owned, error));
         problem = variant->owned;
     }
-    const CzStatus status = build(problem, scene, only, variant, error);
+    const CzStatus status = build(problem, scene, only, first, variant, error);
     if (status != CZ_OK)
         cz_variant_free(variant);
     return status;

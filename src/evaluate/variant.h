@@ -24,12 +24,12 @@ typedef struct CzVariantSettings {
     const char *const *path, *const *value;
 } CzVariantSettings;
 
-/* Builds a variant; `settings` NULL for the problem as written, `only` NULL for every scenario. A
- * variant that failed need not be freed. Statuses: CZ_OK, CZ_STATUS_INPUT with the rule that the
- * settings violate, CZ_STATUS_NO_MEMORY. */
+/* Builds a variant; `settings` NULL for the problem as written, `only` NULL for every scenario,
+ * from scenario `first` on. A variant that failed need not be freed. Statuses: CZ_OK,
+ * CZ_STATUS_INPUT with the rule that the settings violate, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_variant_build(const CzProblem *problem, const CzVariantSettings *settings,
                                         int n_scene, const CzScene *scene, const char *only,
-                                        CzVariant *variant, CzError *error);
+                                        int first, CzVariant *variant, CzError *error);
 void cz_variant_free(CzVariant *variant);
 
 #endif

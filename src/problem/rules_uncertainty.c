@@ -36,7 +36,7 @@ static void check_range(const CzRules *rules, const CzScatter *scatter) {
                        "a lognormal distribution needs 'tolerance_percent' or a range above 0");
     if (scatter->distribution == CZ_DISTRIBUTION_LOGNORMAL && scatter->min <= 0)
         cz_rule_broken(rules, &scatter->min, "the range of a lognormal distribution is above 0");
-    if (scatter->values.n_text > 0 && cz_rule_is_written(rules, &scatter->distribution))
+    if (scatter->values.n_text > 0 && scatter->distribution != CZ_DISTRIBUTION_UNIFORM)
         cz_rule_broken(rules, &scatter->distribution, "values have no distribution");
     for (int i = 0; i < scatter->values.n_text; i++) {
         double value;

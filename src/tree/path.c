@@ -23,8 +23,11 @@ typedef struct {
     const CzPut *put;
     int n_found;
     bool failed;
-    const char *train;     /* name of the train in the path, for its vehicles */
-    const char *part;      /* the present one of all parts; NULL when the path does not name all */
+    const char *train;  /* name of the train in the path, for its vehicles */
+    const CzPart *part; /* whose values are set; NULL outside of parts */
+    bool in_all_parts;  /* the path names all parts, one after the other */
+    const CzTrail *set; /* trail of a value that is set: it belongs to the part, but has no origin
+                           in it */
     char at[CZ_PATH_ROOM]; /* concrete path so far */
 } Walk;
 
@@ -185,10 +188,8 @@ static bool sets_part(const Walk *walk, const CzNode *node, Step step) {
 /* Whether a place is left out: beyond a * among the parts where the key is not written or belongs
  * to a part that this one uses, beyond any other * where there is no number to change. */
 static bool is_left_out(Walk *walk, const CzEntry *there, Step step) {
-    if (walk->part != NULL) {
-        const char *part = there != NULL ? cz_entry_trail(there, step.trail)->part : NULL;
-        return part == NULL || strcmp(part, walk->part) != 0;
-    }
+    if (walk->in_all_parts)
+        return there == NULL || cz_entry_trail(there, step.trail)->written != walk->part->written;
     if (there != NULL || !is_change(walk))
         return false;
     if (!step.is_open)
@@ -211,7 +212,8 @@ static const CzNode *put_value(Walk *walk, const CzNode *mapping, Step step) {
     if (changed == NULL || is_left_out(walk, there, step))
         return changed != NULL ? mapping : NULL;
     const size_t before = enter(walk, name, 0);
-    CzEntry entry = {cz_node_text(&walk->reader->arena, name, &place), NULL, &cz_no_trail};
+    CzEntry entry = {cz_node_text(&walk->reader->arena, name, &place), NULL,
+                     walk->part != NULL ? walk->set : &cz_no_trail};
     if (is_change(walk) && may_put(walk))
         entry = (CzEntry){there->key, changed_number(walk, name, there), there->trail};
     else
@@ -408,10 +410,13 @@ static const CzNode *walk_on(Walk *walk, const CzNode *node, Step step) {
 
 /* Continues in one part. */
 static bool walk_part(Walk *walk, CzPart *part, bool is_open) {
-    CzTrail *trail = cz_arena_allocate(&walk->reader->arena, 1, sizeof *trail);
+    CzTrail *trail = cz_arena_allocate(&walk->reader->arena, 2, sizeof *trail);
     if (trail == NULL)
         return false;
-    *trail = (CzTrail){part->name, part->written, NULL, &cz_no_trail};
+    trail[0] = (CzTrail){part->name, part->written, NULL, &cz_no_trail};
+    trail[1] = (CzTrail){.written = part->written};
+    walk->part = part;
+    walk->set = &trail[1];
     snprintf(walk->at, sizeof walk->at, "parts.%s", part->name);
     const CzNode *changed = walk_on(walk, part->node, (Step){NULL, trail, 2, is_open});
     if (changed != NULL)
@@ -423,7 +428,7 @@ static bool walk_part(Walk *walk, CzPart *part, bool is_open) {
 static bool walk_parts(Walk *walk, CzTree *tree, int depth) {
     for (int i = 0; i < tree->n_part && !walk->failed; i++) {
         CzPart *part = &tree->part[i];
-        walk->part = part->name;
+        walk->in_all_parts = true;
         if (part->depth == depth && part->node->kind == CZ_NODE_MAPPING &&
             !walk_part(walk, part, true))
             return false;

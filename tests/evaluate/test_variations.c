@@ -134,6 +134,23 @@ static void all_parts_are_changed_once(void **state) {
                       "force_kN: 1050");
 }
 
+/* A value that `set:` put into a part, or into the part that this one uses, belongs to that part.
+ */
+static void all_parts_include_those_that_a_setting_changed(void **state) {
+    (void)state;
+    CzProblem *changed = read_texts(base,
+                                    "  - {name: second, like: first, changes: "
+                                    "[{path: \"parts.*.stages[*].force_kN\", factor: 1.5}]}\n",
+                                    "set: {\"parts.tube.stages[0].force_kN\": 600}\n");
+    CzProblem *plain = read_texts(base, "", "set: {\"parts.tube.stages[0].force_kN\": 900}\n");
+    CzEvaluator *one = build(changed), *other = build(plain);
+    expect_equal(print_of(one, NULL, 1), print_of(other, NULL, 0));
+    cz_evaluator_free(one);
+    cz_evaluator_free(other);
+    cz_problem_free(changed);
+    cz_problem_free(plain);
+}
+
 /* Each vehicle of a copy has values of its own in a change. */
 static void a_copy_has_its_own_vehicles(void **state) {
     (void)state;
@@ -172,6 +189,44 @@ static void changes_act_on_designs(void **state) {
     cz_evaluator_free(other);
     cz_problem_free(problem);
     cz_problem_free(plain);
+}
+
+/* Margin of the rule "tube force / shear-off force" of the design as written, whose tube has a
+ * force that rises with the fastest closing speed. */
+static double margin_of_tube(const char *more) {
+    char text[4096];
+    static const char from[] = "tube: {use: other-tube}\n";
+    const char *at = strstr(base, from);
+    assert_non_null(at);
+    snprintf(text, sizeof text,
+             "%.*stube: {use: other-tube, rate_factor_s_m: 0.05}\n"
+             "      shear_off: {force_kN: 1300, retraction_space_mm: 1500}\n%s",
+             (int)(at - base), base, at + sizeof from - 1);
+    CzProblem *problem = read_texts(text, more, "");
+    CzEvaluator *evaluator = build(problem);
+    CzEvaluation evaluation;
+    CzError error = {0};
+    double margin = NAN;
+    assert_int_equal(cz_evaluate(evaluator, 1, NULL, false, &evaluation, &error), CZ_OK);
+    for (int i = 0; i < evaluation.n_check; i++)
+        if (strcmp(evaluation.check[i].name, "tube force / shear-off force") == 0 &&
+            strcmp(evaluation.check[i].scenario, "design") == 0)
+            margin = evaluation.check[i].margin;
+    cz_evaluation_free(&evaluation);
+    cz_evaluator_free(evaluator);
+    cz_problem_free(problem);
+    return margin;
+}
+
+/* A faster scenario that is like another one, such as a sample, does not change the rules of the
+ * design as written; a faster one of its own does. */
+static void a_variation_changes_no_rule_of_the_design(void **state) {
+    (void)state;
+    const double alone = margin_of_tube("");
+    assert_true(isfinite(alone));
+    assert_true(margin_of_tube("  - {name: faster, like: first, reserves: false, changes: [{path: "
+                               "scenario.speed_km_h, value: 30}]}\n") == alone);
+    assert_true(margin_of_tube("  - {name: faster, speed_km_h: 30, duration_s: 0.4}\n") < alone);
 }
 
 /* A case in memory is the scenario of a file. */
@@ -242,8 +297,10 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_change_is_the_value_in_a_file),
         cmocka_unit_test(all_parts_are_changed_once),
+        cmocka_unit_test(all_parts_include_those_that_a_setting_changed),
         cmocka_unit_test(a_copy_has_its_own_vehicles),
         cmocka_unit_test(changes_act_on_designs),
+        cmocka_unit_test(a_variation_changes_no_rule_of_the_design),
         cmocka_unit_test(a_case_is_a_scenario),
         cmocka_unit_test(reserves_are_left_out),
     };

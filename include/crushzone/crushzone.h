@@ -31,6 +31,7 @@
 #include "crushzone/report.h"
 #include "crushzone/simulate.h"
 #include "crushzone/status.h"
+#include "crushzone/sample.h"
 #include "crushzone/sweep.h"
 #include "crushzone/verify.h"
 

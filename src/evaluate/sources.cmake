@@ -8,6 +8,7 @@ set(CZ_SOURCES_evaluate
     climbing.c
     compose.c
     design.c
+    draws.c
     devices.c
     evaluator_parts.c
     explain.c
@@ -20,6 +21,12 @@ set(CZ_SOURCES_evaluate
     result_units.c
     run_plan.c
     runs.c
+    sample_cases.c
+    sample_names.c
+    sampling.c
+    sampling_begin.c
+    sampling_results.c
+    sampling_statistics.c
     scene.c
     sweep.c
     sweep_axis.c

@@ -1,0 +1,216 @@
+/* Samples: the problem is read again with every sample's scenarios, and run.
+ *
+ *   draws --values--> cases of some samples --problem/cases.c--> problem --evaluator--> margins
+ *
+ * A task has a few samples, so that memory does not grow with their number. Tasks are started in
+ * waves, between which progress is reported and the stop flag is checked; results are stored by
+ * sample, so that neither threads nor shards change a bit of them.
+ */
+#include "evaluate/sampling.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "evaluate/tasks.h"
+
+enum {
+    SAMPLES_PER_TASK = 4,
+    TASKS_PER_JOB = 2 /* of a wave */
+};
+
+/* Common data of all samples. */
+typedef struct Sampler {
+    const CzSampleOptions *options;
+    CzSampling *sampling;
+    int n_due;
+    int *due;  /* samples to run (n_due) */
+    int first; /* of the wave, in that list */
+} Sampler;
+
+CzSampleOptions cz_sample_options_default(void) {
+    return (CzSampleOptions){.seed = -1, .shard = 1, .n_shard = 1};
+}
+
+/* ---- running --------------------------------------------------------------------------------- */
+
+/* Runs the samples of a bench, or the nominal design. */
+static CzStatus run_bench(const Sampler *sampler, const CzSampleBench *bench, int n,
+                          const int *sample, CzError *error) {
+    CzEvaluation evaluation = {0};
+    cz_evaluator_set_stop(bench->evaluator, sampler->options->stop);
+    CzStatus status =
+        cz_evaluator_again(bench->evaluator, &bench->evaluator->manner, NULL, &evaluation, error);
+    if (status == CZ_OK && sample[0] == CZ_NOMINAL_SAMPLE)
+        cz_sampling_keep_bare(sampler->sampling, bench, &evaluation);
+    for (int k = 0; status == CZ_OK && sample[0] != CZ_NOMINAL_SAMPLE && k < n; k++)
+        status = cz_sampling_keep(sampler->sampling, bench, &evaluation, sample[k], k, error);
+    cz_evaluation_free(&evaluation);
+    return status;
+}
+
+/* Notes a sample whose values the reader refuses. */
+static CzStatus refuse(CzSampling *sampling, int sample, const CzError *mistake, CzError *error) {
+    CzSample *refused = &sampling->sample[sample];
+    refused->state = CZ_SAMPLE_INVALID;
+    refused->verdict = CZ_VERDICT_FAIL;
+    refused->message = malloc(sizeof mistake->message);
+    if (refused->message == NULL)
+        return cz_no_memory(error, "the results of a sample");
+    snprintf(refused->message, sizeof mistake->message, "%s", mistake->message);
+    return CZ_OK;
+}
+
+/* Runs some samples together; when the reader refuses the values of one of them, each by itself. */
+static CzStatus run_samples(const Sampler *sampler, int n, const int *sample, CzError *error);
+
+static CzStatus run_each(const Sampler *sampler, int n, const int *sample, CzError *error) {
+    for (int k = 0; k < n; k++)
+        CZ_TRY(run_samples(sampler, 1, &sample[k], error));
+    return CZ_OK;
+}
+
+static CzStatus run_samples(const Sampler *sampler, int n, const int *sample, CzError *error) {
+    CzSampleBench bench;
+    CzError mistake = {0};
+    CzStatus status = cz_sample_bench_build(sampler->sampling, n, sample, &bench, &mistake);
+    if (status == CZ_OK)
+        status = run_bench(sampler, &bench, n, sample, error);
+    else if (status == CZ_STATUS_INPUT && n == 1)
+        status = refuse(sampler->sampling, sample[0], &mistake, error);
+    else if (status == CZ_STATUS_INPUT)
+        status = run_each(sampler, n, sample, error);
+    else if (error != NULL)
+        *error = mistake;
+    cz_sample_bench_free(&bench);
+    return status;
+}
+
+static CzStatus run_task(int index, void *data, CzError *error) {
+    const Sampler *sampler = data;
+    const int first = sampler->first + index * SAMPLES_PER_TASK, left = sampler->n_due - first;
+    const int n = left < SAMPLES_PER_TASK ? left : SAMPLES_PER_TASK;
+    const CzStatus status = run_samples(sampler, n, sampler->due + first, error);
+    return status == CZ_STATUS_INTERRUPTED ? CZ_OK : status;
+}
+
+static bool is_stopped(const CzSampleOptions *options) {
+    return options->stop != NULL && *options->stop != 0;
+}
+
+static CzStatus run_due(Sampler *sampler, CzError *error) {
+    const CzSampleOptions *options = sampler->options;
+    const int n_job = options->n_job > 0 ? options->n_job : cz_processor_count();
+    while (sampler->first < sampler->n_due && !is_stopped(options)) {
+        const int left =
+            (sampler->n_due - sampler->first + SAMPLES_PER_TASK - 1) / SAMPLES_PER_TASK;
+        const int n_task = left < n_job * TASKS_PER_JOB ? left : n_job * TASKS_PER_JOB;
+        CZ_TRY(cz_tasks_run(n_task, n_job, run_task, sampler, error));
+        sampler->first += n_task * SAMPLES_PER_TASK;
+        if (sampler->first > sampler->n_due)
+            sampler->first = sampler->n_due;
+        if (options->progress != NULL)
+            options->progress(sampler->first, sampler->n_due, options->progress_data);
+    }
+    sampler->sampling->is_interrupted = is_stopped(options);
+    return CZ_OK;
+}
+
+/* Runs the samples of the shard, but not those that are known already. */
+static CzStatus run_all(Sampler *sampler, CzError *error) {
+    CzSampling *sampling = sampler->sampling;
+    if (sampler->options->recall != NULL)
+        CZ_TRY(sampler->options->recall(sampling, sampler->options->recall_data, error));
+    sampler->due = malloc((size_t)sampling->n_sample * sizeof *sampler->due);
+    if (sampler->due == NULL)
+        return cz_no_memory(error, "the samples");
+    for (int k = sampling->begin; k < sampling->end; k++)
+        if (sampling->sample[k].state == CZ_SAMPLE_NOT_RUN)
+            sampler->due[sampler->n_due++] = k;
+    const CzStatus status = run_due(sampler, error);
+    free(sampler->due);
+    return status;
+}
+
+/* Runs the nominal design, with and without reserves. */
+static CzStatus run_nominal(const Sampler *sampler, CzError *error) {
+    CzSampling *sampling = sampler->sampling;
+    CzEvaluatorOptions options = cz_evaluator_options_default();
+    options.n_job = sampler->options->n_job;
+    CZ_TRY(cz_evaluator_build(sampling->problem, &options, &sampling->parts->evaluator, error));
+    cz_evaluator_set_stop(sampling->parts->evaluator, sampler->options->stop);
+    CZ_TRY(cz_evaluate(sampling->parts->evaluator, 1, NULL, false, &sampling->nominal, error));
+    cz_sampling_keep_nominal(sampling);
+    CzSampleBench bench;
+    const int nominal = CZ_NOMINAL_SAMPLE;
+    CzStatus status = cz_sample_bench_build(sampling, 1, &nominal, &bench, error);
+    if (status == CZ_OK)
+        status = run_bench(sampler, &bench, 1, &nominal, error);
+    cz_sample_bench_free(&bench);
+    return status;
+}
+
+static CzStatus read_problem(const char *file, const CzProblemOptions *problem_options,
+                             const CzSampleOptions *options, CzSampling *sampling, CzError *error) {
+    return options->text != NULL
+               ? cz_problem_read_text(options->text, options->n_text, "<standard input>", ".",
+                                      problem_options, &sampling->problem, error)
+               : cz_problem_read(file, problem_options, &sampling->problem, error);
+}
+
+static CzStatus sample(Sampler *sampler, CzError *error) {
+    CZ_TRY(cz_sampling_begin_draws(sampler->sampling, sampler->options, error));
+    CZ_TRY(cz_sampling_begin_checks(sampler->sampling, error));
+    const CzStatus status = run_nominal(sampler, error);
+    if (status == CZ_STATUS_INTERRUPTED)
+        sampler->sampling->is_interrupted = true;
+    else if (status != CZ_OK)
+        return status;
+    else
+        CZ_TRY(run_all(sampler, error));
+    return cz_sampling_conclude(sampler->sampling, error);
+}
+
+CzStatus cz_sample(const char *file, const CzProblemOptions *problem_options,
+                   const CzSampleOptions *options, CzSampling **sampling, CzError *error) {
+    const double started = cz_clock();
+    const CzProblemOptions none = cz_problem_options_default();
+    *sampling = calloc(1, sizeof **sampling);
+    if (*sampling == NULL || ((*sampling)->parts = calloc(1, sizeof(CzSamplingParts))) == NULL) {
+        cz_sampling_free(*sampling);
+        *sampling = NULL;
+        return cz_no_memory(error, "a sampling");
+    }
+    Sampler sampler = {.options = options, .sampling = *sampling};
+    CzStatus status = read_problem(file, problem_options != NULL ? problem_options : &none, options,
+                                   *sampling, error);
+    if (status == CZ_OK)
+        status = sample(&sampler, error);
+    (*sampling)->wall_s = cz_clock() - started;
+    if (status == CZ_OK)
+        return CZ_OK;
+    cz_sampling_free(*sampling);
+    *sampling = NULL;
+    return status;
+}
+
+void cz_sampling_free(CzSampling *sampling) {
+    if (sampling == NULL)
+        return;
+    for (int k = 0; sampling->sample != NULL && k < sampling->n_sample; k++)
+        free(sampling->sample[k].message);
+    cz_evaluation_free(&sampling->nominal);
+    if (sampling->parts != NULL) {
+        cz_evaluator_free(sampling->parts->evaluator);
+        cz_arena_free(&sampling->parts->arena);
+    }
+    cz_problem_free(sampling->problem);
+    free(sampling->value);
+    free(sampling->sample);
+    free(sampling->margin);
+    free(sampling->verdict);
+    free(sampling->convergence);
+    free(sampling->parts);
+    free(sampling);
+}

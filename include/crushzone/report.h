@@ -12,6 +12,7 @@
 #include "crushzone/explain.h"
 #include "crushzone/fit.h"
 #include "crushzone/optimise.h"
+#include "crushzone/sample.h"
 #include "crushzone/sweep.h"
 #include "crushzone/verify.h"
 
@@ -57,6 +58,7 @@ typedef enum CzReportKind {
     CZ_REPORT_RUN,          /* problem, evaluation */
     CZ_REPORT_SEARCH,       /* problem, evaluator, outcome */
     CZ_REPORT_SWEEP,        /* sweep */
+    CZ_REPORT_SAMPLE,       /* problem, sampling */
     CZ_REPORT_VERIFICATION, /* problem, verification */
     CZ_REPORT_BENCHMARK,    /* problem, benchmark */
     CZ_REPORT_EXPLANATION,  /* problem, explanation */
@@ -75,6 +77,7 @@ typedef struct CzReport {
     const CzEvaluator *evaluator;
     const CzOutcome *outcome;
     const CzSweep *sweep;
+    const CzSampling *sampling;
     const CzVerification *verification;
     const CzBenchmark *benchmark;
     const CzExplanation *explanation;
@@ -93,9 +96,9 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_json(const CzReport *report, FILE 
 
 /* Tables for a terminal, of all but fits and mistakes: the worst member of a family of scenarios;
  * before and after a search, violated constraints, and the new values as YAML; the points of a
- * sweep over one path or the map over two; the values with the largest changes of a verification;
- * the differences of a comparison. `colour` allows escape codes. Status: CZ_STATUS_NO_MEMORY when
- * rows are missing, which the text also reports. */
+ * sweep over one path or the map over two; the checks of a sampling; the values with the largest
+ * changes of a verification; the differences of a comparison. `colour` allows escape codes. Status:
+ * CZ_STATUS_NO_MEMORY when rows are missing, which the text also reports. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_table(const CzReport *report, bool colour,
                                                     FILE *stream, CzError *error);
 
@@ -105,11 +108,18 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_table(const CzReport *report, bool
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_page(const CzReport *report, FILE *stream,
                                                    CzError *error);
 
-/* The whole result folder of a run, a search or a sweep: to a temporary name first, renamed at the
- * end; replaces only a folder of our own. Needs runs that were kept. Statuses: CZ_STATUS_OUTPUT,
- * CZ_STATUS_NO_MEMORY. */
+/* The whole result folder of a run, a search, a sweep or a sampling: to a temporary name first,
+ * renamed at the end; replaces only a folder of our own. Needs runs that were kept. Statuses:
+ * CZ_STATUS_OUTPUT, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_folder(const CzReport *report, const char *folder,
                                                      CzError *error);
+
+/* Takes the samples of a result folder, written with the same decimal sign: of another shard, or of
+ * a sampling that was interrupted. Statuses: CZ_STATUS_INPUT for a folder that cannot be read or
+ * has samples of another problem or other random numbers, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_read_samples(const char *folder,
+                                                     const CzReportOptions *options,
+                                                     CzSampling *sampling, CzError *error);
 
 /* Writes an SVG figure of the law over its curve; its title marks a doubtful or refused law.
  * Statuses: CZ_OK, CZ_STATUS_NO_MEMORY. */

@@ -130,6 +130,8 @@ static CzStatus keep_option(Reader *reader, int option, const char *value) {
         arguments->metric[arguments->n_metric++] = value;
     else if (option == CZ_OPTION_CHECK)
         arguments->check[arguments->n_check++] = value;
+    else if (option == CZ_OPTION_JOIN)
+        arguments->join[arguments->n_join++] = value;
     return CZ_OK;
 }
 
@@ -195,6 +197,19 @@ static CzStatus read_time(const CzArguments *arguments, CzOption option, double 
                    cz_options[option].name, text);
 }
 
+/* Reads "I/N", a part and the number of parts. */
+static CzStatus read_shard(CzArguments *arguments, CzError *error) {
+    const char *text = arguments->text[CZ_OPTION_SHARD];
+    int n_read = 0;
+    arguments->shard = arguments->n_shard = 1;
+    if (text == NULL ||
+        (sscanf(text, "%9d/%9d%n", &arguments->shard, &arguments->n_shard, &n_read) == 2 &&
+         text[n_read] == '\0' && arguments->shard >= 1 && arguments->shard <= arguments->n_shard))
+        return CZ_OK;
+    return cz_fail(error, CZ_STATUS_INPUT,
+                   "'--shard %.40s' is not a part and their number, such as 1/4", text);
+}
+
 /* Reads one of the words, separated by |; *index is unchanged when the option is absent. */
 static CzStatus read_choice(const CzArguments *arguments, CzOption option, const char *words,
                             int *index, CzError *error) {
@@ -227,6 +242,8 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
     CZ_TRY(read_time(arguments, CZ_OPTION_MAX_TIME, &arguments->max_time, error));
     CZ_TRY(read_whole(arguments, CZ_OPTION_ROUNDS, 1, 10000, &arguments->rounds, error));
     CZ_TRY(read_whole(arguments, CZ_OPTION_SEED, 0, 2000000000, &arguments->seed, error));
+    CZ_TRY(read_whole(arguments, CZ_OPTION_SAMPLES, 1, 1000000, &arguments->n_sample, error));
+    CZ_TRY(read_shard(arguments, error));
     CZ_TRY(read_whole(arguments, CZ_OPTION_STAGES, 0, 100, &n_stage, error));
     for (size_t i = 0; i < sizeof by_words / sizeof *by_words; i++)
         CZ_TRY(
@@ -323,7 +340,7 @@ CzStatus cz_arguments_read(int argc, char **argv, CzArguments *arguments, CzErro
     if (arguments->command == CZ_N_COMMAND)
         return unknown_command(argv[1], &nearest, error);
     const size_t most = (size_t)argc + 1; /* of each list */
-    const char **room = calloc(5 * most, sizeof *room);
+    const char **room = calloc(6 * most, sizeof *room);
     if (room == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the command line");
     arguments->operand = room;
@@ -331,6 +348,7 @@ CzStatus cz_arguments_read(int argc, char **argv, CzArguments *arguments, CzErro
     arguments->vary = room + 2 * most;
     arguments->metric = room + 3 * most;
     arguments->check = room + 4 * most;
+    arguments->join = room + 5 * most;
     Reader reader = {.argc = argc, .next = 2, .argv = argv, .arguments = arguments, .error = error};
     while (reader.next < argc)
         CZ_TRY(read_word(&reader));

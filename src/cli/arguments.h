@@ -52,12 +52,16 @@ typedef struct CzArguments {
     int n_metric;
     const char **check; /* names (n_check) */
     int n_check;
+    const char **join; /* folders (n_join) */
+    int n_join;
     char time_step[64]; /* room for the setting that --time-step-ms represents */
     int n_job;          /* 0: number of processors */
     long evaluations;   /* 0: that of the file */
     long seed;          /* -1: that of the file */
     double max_time;    /* [s]; 0 for none */
     long rounds;        /* 0: the default */
+    long n_sample;      /* 0: that of the file */
+    int shard, n_shard; /* 1 and 1: all samples */
     int n_stage;        /* -1: as many as the curve requires */
     int basis, flip;    /* words of these options, counted from 0; -1: not given */
     CzIntegrator integrator;

@@ -23,8 +23,9 @@ const CzHelpEntry cz_topics[CZ_N_TOPIC] = {
 
 const CzHelpEntry cz_exit_codes[] = {
     {"0", "done"},
-    {"1", "a check fails or could not be made, no feasible design was found (optimise), a law is "
-          "refused (fit)"},
+    {"1",
+     "a check fails or could not be made, no feasible design was found (optimise), the required "
+     "statistic of a check is violated (sample), a law is refused (fit)"},
     {"2", "error in the command line or a problem file"},
     {"3", "a run failed or is incomplete; the time limit of a search (--max-time) was reached, the "
           "best design so far is written"},
@@ -48,8 +49,8 @@ const CzHelpEntry cz_verdict_rules[] = {
 
 const char cz_verdict_remark[] =
     "The same rule applies to a scenario, a problem, a point of a sweep, an optimum and compared "
-    "runs, in tables, JSON, reports and exit codes: check, run --strict and sweep --strict end "
-    "with 0 for pass and PROVISIONAL only. JSON has PROVISIONAL as \"verdict\": \"pass\" with "
+    "runs, in tables, JSON, reports and exit codes: check, sample, run --strict and sweep --strict "
+    "end with 0 for pass and PROVISIONAL only. JSON has PROVISIONAL as \"verdict\": \"pass\" with "
     "\"provisional\": true. Requirements of a profile that this program cannot compute are listed "
     "as "
     "not covered; they count in no verdict. Design rules are limits of this program "

@@ -11,6 +11,7 @@ set(CZ_SOURCES_cli
     command_optimise.c
     command_problem.c
     command_run.c
+    command_sample.c
     command_sweep.c
     command_study.c
     help.c

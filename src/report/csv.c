@@ -1,9 +1,11 @@
 /* CSV tables: a function for each, and a writer of fields. */
 #include "report/csv.h"
 
+#include "base/number.h"
 #include "report/figure.h"
 #include "report/options.h"
 #include "report/results.h"
+#include "report/sample_rows.h"
 #include "report/units.h"
 
 #include <math.h>
@@ -297,4 +299,78 @@ void cz_csv_write_sweep(const CzReport *report, FILE *stream) {
                 put_result(&table, columns[k], &context, point);
         end_row(&table);
     }
+}
+
+/* ---- samples ---- */
+
+/* Writes a number with all its digits. */
+static void put_full(Table *table, double value) {
+    char text[CZ_NUMBER_TEXT];
+    begin_field(table);
+    if (!isfinite(value))
+        return;
+    cz_number_print(text, value);
+    char *point = strchr(text, '.');
+    if (point != NULL)
+        *point = table->decimal;
+    fputs(text, table->stream);
+}
+
+/* A margin; a word where a run failed (sample_rows.h). */
+static void put_size(Table *table, double margin) {
+    if (isinf(margin))
+        put_text(table, CZ_SAMPLE_FAILED);
+    else
+        put_full(table, margin);
+}
+
+/* A check in one sample: its margin, or a word. */
+static void put_margin(Table *table, const CzSampledCheck *check, double margin,
+                       CzVerdict verdict) {
+    if (check->is_flag)
+        put_text(table, verdict == CZ_VERDICT_NOT_CHECKED ? NULL
+                        : cz_verdict_passes(verdict)      ? CZ_SAMPLE_PASSES
+                                                          : CZ_SAMPLE_FAILS);
+    else
+        put_size(table, margin);
+}
+
+static void put_sample(Table *table, const CzSampling *sampling, int k) {
+    const CzSample *sample = &sampling->sample[k];
+    const size_t row = (size_t)k * (size_t)sampling->n_check;
+    const CzSampledCheck *check = sample->check >= 0 ? &sampling->check[sample->check] : NULL;
+    put_exact(table, k + 1);
+    put_text(table, cz_sample_state_text(sample->state));
+    put_text(table, cz_verdict_text(sample->verdict));
+    put_text(table, sample->beyond_validity ? "yes" : "no");
+    put_size(table, sample->margin);
+    put_text(table, check != NULL ? check->name : NULL);
+    put_text(table, check != NULL ? check->scenario : NULL);
+    for (int d = 0; d < sampling->n_draw; d++)
+        put_full(table, sampling->value[(size_t)k * (size_t)sampling->n_draw + (size_t)d]);
+    for (int c = 0; c < sampling->n_check; c++)
+        put_margin(table, &sampling->check[c], sampling->margin[row + (size_t)c],
+                   sampling->verdict[row + (size_t)c]);
+    put_text(table, sample->message);
+    end_row(table);
+}
+
+void cz_csv_write_samples(const CzReport *report, FILE *stream) {
+    static const char *const heads[] = {CZ_SAMPLE_HEADS};
+    const CzSampling *sampling = report->sampling;
+    Table table = table_of(cz_report_options_of(report), stream);
+    for (size_t i = 0; i < sizeof heads / sizeof *heads; i++)
+        put_text(&table, heads[i]);
+    for (int d = 0; d < sampling->n_draw; d++)
+        put_text(&table, sampling->draw[d].name);
+    for (int c = 0; c < sampling->n_check; c++) {
+        char name[2 * CZ_LABEL_ROOM + CZ_NAME_ROOM];
+        snprintf(name, sizeof name, "%s, %s", sampling->check[c].name, sampling->check[c].scenario);
+        put_text(&table, name);
+    }
+    put_text(&table, "message");
+    end_row(&table);
+    for (int k = 0; k < sampling->n_sample; k++)
+        if (sampling->sample[k].state != CZ_SAMPLE_NOT_RUN)
+            put_sample(&table, sampling, k);
 }

@@ -218,19 +218,41 @@ static bool resolve_folder(const char *folder, char resolved[PATH_MAX]) {
     return written > 0 && written < PATH_MAX;
 }
 
+/* Writes `extends:` with the path of a problem's file from a folder on, behind `above`; false where
+ * there is none. */
+static bool write_extends(const CzProblem *problem, const char *folder, const char *above,
+                          FILE *stream) {
+    char file[PATH_MAX], from[PATH_MAX], path[PATH_MAX], whole[PATH_MAX + 16];
+    if (realpath(cz_problem_file(problem), file) == NULL || !resolve_folder(folder, from))
+        return false;
+    relative_path(from, file, sizeof path, path);
+    snprintf(whole, sizeof whole, "%.8s%s", above, path);
+    fputs("extends: ", stream);
+    cz_overlay_write_text(whole, stream);
+    fputc('\n', stream);
+    return true;
+}
+
+void cz_overlay_write_text(const char *text, FILE *stream) {
+    write_quoted(text, strlen(text), stream);
+}
+
+void cz_overlay_write_base(const CzReport *report, const CzProblem *problem, const char *folder,
+                           const char *above, FILE *stream) {
+    const CzReportOptions *options = cz_report_options_of(report);
+    if (!write_extends(problem, folder, above, stream))
+        fputs("# The file of the problem is not there any more.\n", stream);
+    if (options->n_set > 0)
+        write_set(options->n_set, options->set, stream);
+}
+
 CzStatus cz_overlay_write_design(const CzReport *report, const char *folder, FILE *stream,
                                  CzError *error) {
-    char file[PATH_MAX], from[PATH_MAX], path[PATH_MAX];
     if (cz_report_options_of(report)->text == NULL &&
-        realpath(cz_problem_file(report->problem), file) != NULL && resolve_folder(folder, from)) {
-        relative_path(from, file, sizeof path, path);
-        fputs("extends: ", stream);
-        write_quoted(path, strlen(path), stream);
-        fputc('\n', stream);
+        write_extends(report->problem, folder, "", stream))
         CZ_TRY(cz_overlay_write_values(report, true, stream, error));
-    } else {
+    else
         CZ_TRY(cz_overlay_write_resolved(report, stream, error));
-    }
     if (fflush(stream) != 0 || ferror(stream))
         return cz_fail(error, CZ_STATUS_OUTPUT, "the overlay cannot be written: %s",
                        strerror(errno));

@@ -31,4 +31,13 @@ CZ_MUST_CHECK CzStatus cz_overlay_write_design(const CzReport *report, const cha
 CZ_MUST_CHECK CzStatus cz_overlay_write(const CzReport *report, const char *folder, FILE *stream,
                                         CzError *error);
 
+/* Begins a problem file of the result folder `folder`: `extends:` the file of the problem and
+ * `set:` the settings of the command line; `above` leads from its own folder up to that one, such
+ * as "../".
+ */
+void cz_overlay_write_base(const CzReport *report, const CzProblem *problem, const char *folder,
+                           const char *above, FILE *stream);
+/* Writes a text in double quotes. */
+void cz_overlay_write_text(const char *text, FILE *stream);
+
 #endif

@@ -258,16 +258,22 @@ static void write_curve(const Frame *frame, const CzSeries *series, CzMarkup *ma
     cz_markup_write(markup, " stroke='%s'", cz_plot_colour(series->colour));
     if (series->colour < 0)
         cz_markup_write(markup, " stroke-width='30' stroke-opacity='.5'");
+    if (series->form == CZ_SERIES_AREA)
+        cz_markup_write(markup, " stroke-width='8' fill='%s' fill-opacity='.45'",
+                        cz_plot_colour(series->colour));
+    if (series->form == CZ_SERIES_POINTS)
+        cz_markup_write(markup, " stroke-width='35' stroke-opacity='.6' stroke-linecap='round'");
     if (dash != NULL)
         cz_markup_write(markup, " stroke-dasharray='%s'", dash);
     cz_markup_write(markup, " d='");
     for (int from = 0; from < series->n;) {
         int to = from;
-        while (to < series->n && is_point(series, to))
+        while (to < series->n && is_point(series, to) &&
+               (to == from || series->form != CZ_SERIES_POINTS))
             to++;
         if (to > from && !write_piece(frame, series, from, to, markup->stream))
             markup->failed = true;
-        from = to + 1;
+        from = to + (to == series->n || !is_point(series, to));
     }
     if (series->name != NULL)
         cz_markup_write(markup, "'><title>%s</title></path>", series->name);

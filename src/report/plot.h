@@ -15,6 +15,12 @@ enum {
     CZ_PLOT_MOST_POINTS = 2000 /* of a curve */
 };
 
+typedef enum CzSeriesForm {
+    CZ_SERIES_CURVE,
+    CZ_SERIES_AREA,  /* filled down to its first point's y, such as the bars of a histogram */
+    CZ_SERIES_POINTS /* dots */
+} CzSeriesForm;
+
 /* One curve. Texts and numbers are borrowed; a point with a number that is not finite is a gap. */
 typedef struct CzSeries {
     const char *name;                  /* in the legend; NULL: not there */
@@ -23,7 +29,8 @@ typedef struct CzSeries {
     int n;
     const double *x, *y; /* (n) */
     int colour;          /* index, repeated beyond CZ_PLOT_N_COLOUR, or CZ_PLOT_QUIET */
-    int dash;            /* 0 solid, 1 dashed, 2 dotted, 3 dash-dotted */
+    CzSeriesForm form;
+    int dash; /* 0 solid, 1 dashed, 2 dotted, 3 dash-dotted */
 } CzSeries;
 
 /* A limit. */

@@ -1,5 +1,5 @@
 /* The files of a result folder: summary and checks at the top, histories per scenario; of a sweep,
- * its points. */
+ * its points; of a sampling, its samples. */
 #include "crushzone/report.h"
 
 #include "base/error.h"
@@ -10,8 +10,10 @@
 #include "report/options.h"
 #include "report/overlay.h"
 #include "report/page.h"
+#include "report/page_sample.h"
 #include "report/page_sweep.h"
 #include "report/runs.h"
+#include "report/sample_replay.h"
 #include "report/temporary.h"
 
 #include <errno.h>
@@ -27,6 +29,7 @@ typedef struct Results {
     bool is_top;               /* its files are at the top of the folder */
     const char *folder;        /* final path */
     const CzSource *input;     /* the file that is copied */
+    int sample;                /* the sample that is written */
 } Results;
 
 typedef enum Content {
@@ -44,7 +47,11 @@ typedef enum Content {
     REPORT,
     SWEEP,
     SWEEP_POINTS,
-    SWEEP_REPORT
+    SWEEP_REPORT,
+    SAMPLE,
+    SAMPLES,
+    SAMPLE_REPORT,
+    REPLAY
 } Content;
 
 typedef struct File {
@@ -129,6 +136,7 @@ static CzStatus write_content(const Results *results, Content content, FILE *str
         return cz_report_write_json(&results->run, stream, error);
     case OUTCOME:
     case SWEEP:
+    case SAMPLE:
         return cz_report_write_json(report, stream, error);
     case OVERLAY:
         return cz_overlay_write(report, results->folder, stream, error);
@@ -141,6 +149,14 @@ static CzStatus write_content(const Results *results, Content content, FILE *str
         return write_report(results, stream, error);
     case SWEEP_REPORT:
         return cz_page_write_sweep(report->sweep, stream, error);
+    case SAMPLE_REPORT:
+        return cz_page_write_sample(report, stream, error);
+    case REPLAY:
+        cz_replay_write(report, results->sample, results->folder, stream);
+        break;
+    case SAMPLES:
+        cz_csv_write_samples(report, stream);
+        break;
     case SWEEP_POINTS:
         cz_csv_write_sweep(report, stream);
         break;
@@ -231,6 +247,25 @@ static CzStatus write_measured(CzFolder *folder, Results *results, CzError *erro
     }
 }
 
+/* The files of a sampling; its worst samples as problem files, where the problem is in a file. */
+static CzStatus write_sampling(CzFolder *folder, Results *results, CzError *error) {
+    static const File files[] = {
+        {"sample.json", SAMPLE}, {"samples.csv", SAMPLES}, {"report.html", SAMPLE_REPORT}};
+    const CzSampling *sampling = results->report->sampling;
+    CZ_TRY(write_files(folder, 3, files, results, error));
+    if (cz_report_options_of(results->report)->text != NULL)
+        return CZ_OK;
+    for (int k = 0; k < sampling->n_sample; k++) {
+        char name[CZ_REPLAY_ROOM];
+        if (!cz_replay_is_written(sampling, k))
+            continue;
+        results->sample = k;
+        cz_replay_name(k, name);
+        CZ_TRY(write_file(folder, name, REPLAY, results, error));
+    }
+    return CZ_OK;
+}
+
 static CzStatus write_all(CzFolder *folder, Results *results, CzError *error) {
     static const File files[] = {{"summary.json", SUMMARY},   {"checks.csv", CHECKS},
                                  {"resolved.yaml", RESOLVED}, {"run.log", RUN_LOG},
@@ -240,6 +275,8 @@ static CzStatus write_all(CzFolder *folder, Results *results, CzError *error) {
         {"sweep.json", SWEEP}, {"sweep.csv", SWEEP_POINTS}, {"report.html", SWEEP_REPORT}};
     if (results->report->kind == CZ_REPORT_SWEEP)
         return write_files(folder, 3, of_sweep, results, error);
+    if (results->report->kind == CZ_REPORT_SAMPLE)
+        return write_sampling(folder, results, error);
     CZ_TRY(write_files(folder, results->report->outcome != NULL ? 7 : 4, files, results, error));
     if (results->report->outcome != NULL && cz_report_options_of(results->report)->journal != NULL)
         CZ_TRY(write_file(folder, "history.jsonl", JOURNAL, results, error));

@@ -185,6 +185,23 @@ static double margin_change(const CzResultContext *context, const double *increm
                 ->constraint_change[variable_of(context, increment) * n_constraint + constraint];
 }
 
+/* ---- samples ---- */
+
+static const char *effect_word(CzDrawEffect effect) {
+    return effect == CZ_DRAW_VALUE ? "value" : effect == CZ_DRAW_FACTOR ? "factor" : "add";
+}
+
+static double sampled_value(const CzSampling *sampling, int sample, int draw) {
+    return sampling->value[(size_t)sample * (size_t)sampling->n_draw + (size_t)draw];
+}
+
+static const CzSample *nth_failed(const CzSampling *sampling, int n) {
+    const CzSample *sample = sampling->sample;
+    while ((sample->state != CZ_SAMPLE_RUN_FAILED && sample->state != CZ_SAMPLE_INVALID) || n-- > 0)
+        sample++;
+    return sample;
+}
+
 /* Summary of the compared scenario of a run; NULL when none was kept. */
 static const CzRunSummary *summary_of(const CzResultContext *context, const CzReportRun *run) {
     return cz_compared_run(context->report, (int)(run - context->report->compared));

@@ -33,6 +33,7 @@ set(CZ_SOURCES_report
     page_frame.c
     page_inputs.c
     page_outcome.c
+    page_sample.c
     page_scene.c
     page_sweep.c
     page_trains.c
@@ -42,6 +43,10 @@ set(CZ_SOURCES_report
     result_reference.c
     results.c
     run_table.c
+    sample_figures.c
+    sample_replay.c
+    sample_rows.c
+    sample_table.c
     scene.c
     energy_distribution.c
     single_file.c

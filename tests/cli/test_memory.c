@@ -1,7 +1,7 @@
-/* Lack of memory in the whole program: every request of run, check, optimise, sweep, explain,
- * report, plot and compare fails once, also those of libraries and stdio. Either the program
- * reports that there is no memory, ends with exit code 5 and leaves nothing incomplete, or its
- * output equals that with enough memory to the last byte.
+/* Lack of memory in the whole program: every request of run, check, optimise, sweep, sample,
+ * explain, report, plot and compare fails once, also those of libraries and stdio. Either the
+ * program reports that there is no memory, ends with exit code 5 and leaves nothing incomplete, or
+ * its output equals that with enough memory to the last byte.
  *
  * The program runs in a process of its own each time. With an argument a command is tried at every
  * request: test_memory long. Otherwise at every n-th, so that all together take some seconds. */
@@ -84,7 +84,7 @@ typedef struct Try {
     uint64_t answer; /* of all output */
 } Try;
 
-static char work_folder[64], problem[128], made[128];
+static char work_folder[64], problem[128], sampled[128], made[128];
 
 /* FNV-1a over a text, without the parts that differ from run to run. */
 static uint64_t hash_text(uint64_t hash, const char *text, size_t n) {
@@ -208,7 +208,10 @@ static void fail_every_request(const char *line, int stride) {
     int n_word = 1, n_bad = 0;
     snprintf(words, sizeof words, "%s", line);
     for (char *w = strtok(words, " "); w != NULL && n_word < MOST_WORDS; w = strtok(NULL, " "))
-        word[n_word++] = strcmp(w, "PROBLEM") == 0 ? problem : strcmp(w, "MADE") == 0 ? made : w;
+        word[n_word++] = strcmp(w, "PROBLEM") == 0   ? problem
+                         : strcmp(w, "SAMPLED") == 0 ? sampled
+                         : strcmp(w, "MADE") == 0    ? made
+                                                     : w;
     const Try whole = attempt(n_word, word, -1);
     assert_in_range(whole.code, 0, 1);
     const long n = count_requests();
@@ -243,6 +246,12 @@ static void optimise_reports_every_lack_of_memory(void **state) {
 static void sweep_reports_every_lack_of_memory(void **state) {
     (void)state;
     fail_every_request("sweep PROBLEM -q -j 1 --vary trains.A.speed_km_h=14:15:2 -o out", 11);
+}
+
+static void sample_reports_every_lack_of_memory(void **state) {
+    (void)state;
+    fail_every_request("sample SAMPLED -q -j 1 -n 3 -o out", 23);
+    fail_every_request("sample SAMPLED -q -j 1 -n 3 --json", 31);
 }
 
 static void report_reports_every_lack_of_memory(void **state) {
@@ -286,6 +295,21 @@ static void write_problem(void) {
     assert_int_equal(fclose(stream), 0);
 }
 
+/* The same with uncertain numbers. */
+static void write_sampled(void) {
+    FILE *stream = fopen("sampled.yaml", "w");
+    assert_non_null(stream);
+    fputs("extends: small.yaml\n"
+          "uncertainty:\n"
+          "  parameters:\n"
+          "    - {path: \"parts.*.coupler.tube.stages[0].force_kN\", tolerance_percent: 5,\n"
+          "       group: part}\n"
+          "    - {path: \"trains.*.vehicles.*.mass_t\", tolerance: 1, group: each}\n"
+          "    - {path: scenario.speed_km_h, values: [13, 14]}\n",
+          stream);
+    assert_int_equal(fclose(stream), 0);
+}
+
 static int enter_work_folder(void **state) {
     (void)state;
     snprintf(work_folder, sizeof work_folder, "/tmp/cz-memory-XXXXXX");
@@ -293,7 +317,9 @@ static int enter_work_folder(void **state) {
         return 1;
     snprintf(problem, sizeof problem, "%s/small.yaml", work_folder);
     snprintf(made, sizeof made, "%s/made", work_folder);
+    snprintf(sampled, sizeof sampled, "%s/sampled.yaml", work_folder);
     write_problem();
+    write_sampled();
     char *word[] = {"crushzone", "run", problem, "-q", "-o", made};
     return attempt(6, word, -1).code;
 }
@@ -309,6 +335,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(run_reports_every_lack_of_memory),
         cmocka_unit_test(report_reports_every_lack_of_memory),
         cmocka_unit_test(sweep_reports_every_lack_of_memory),
+        cmocka_unit_test(sample_reports_every_lack_of_memory),
         cmocka_unit_test(optimise_reports_every_lack_of_memory),
         cmocka_unit_test(a_lasting_lack_of_memory_is_reported_too),
     };

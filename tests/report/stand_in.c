@@ -5,6 +5,7 @@
 #include "text/node.h"
 #include "problem/problem.h"
 #include "report/page.h"
+#include "report/page_sample.h"
 #include "report/page_sweep.h"
 
 #include <math.h>
@@ -66,6 +67,15 @@ const CzSource *cz_problem_first_source(const CzProblem *problem) {
     static const CzSource file = {.name = "two.yaml", .next = (CzSource *)&profile};
     (void)problem;
     return &file;
+}
+int cz_problem_n_scenario(const CzProblem *problem) {
+    (void)problem;
+    return 1;
+}
+const char *cz_problem_scenario_name(const CzProblem *problem, int scenario) {
+    (void)problem;
+    (void)scenario;
+    return "25kmh";
 }
 int cz_problem_n_warning(const CzProblem *problem) {
     (void)problem;
@@ -150,6 +160,12 @@ CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error)
     (void)sweep;
     (void)error;
     fputs("report of a sweep\n", stream);
+    return CZ_OK;
+}
+CzStatus cz_page_write_sample(const CzReport *report, FILE *stream, CzError *error) {
+    (void)report;
+    (void)stream;
+    (void)error;
     return CZ_OK;
 }
 CzStatus cz_page_write_outcome(const CzReport *report, FILE *stream, CzError *error) {

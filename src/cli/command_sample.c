@@ -1,0 +1,93 @@
+/* `sample`: the scatter of `uncertainty:` is drawn and judged; completed samples are kept on the
+ * first signal. */
+#include "cli/command.h"
+#include "cli/interrupt.h"
+#include "cli/messages.h"
+#include "cli/progress.h"
+#include "cli/session.h"
+
+#include <stdio.h>
+
+static int judge(const CzArguments *arguments, const CzSampling *sampling) {
+    if (sampling->is_interrupted)
+        return 128 + cz_interrupt_signal();
+    if (sampling->n_failed > 0) {
+        cz_tell(arguments, "%d samples gave no result, and count as failing", sampling->n_failed);
+        return cz_status_exit_code(CZ_STATUS_RUN_FAILED);
+    }
+    if (cz_verdict_passes(sampling->judgement))
+        return 0;
+    /* a shard alone has no verdict, but it is complete */
+    if (sampling->judgement == CZ_VERDICT_NOT_CHECKED && sampling->n_shard > 1)
+        return 0;
+    return cz_status_exit_code(CZ_STATUS_VIOLATED);
+}
+
+static int finish(CzSession *session, const CzSampling *sampling) {
+    const CzArguments *arguments = session->arguments;
+    const char *folder = arguments->text[CZ_OPTION_OUTPUT];
+    CzReport report = cz_session_report(session, CZ_REPORT_SAMPLE, sampling->wall_s);
+    report.sampling = sampling;
+    int code = cz_keep_results(arguments, &report, folder);
+    if (code == 0)
+        code = cz_print_results(arguments, &report);
+    if (code != 0)
+        return code;
+    cz_tell(arguments, "%d of %d samples in %.3g s%s%s", sampling->n_run, sampling->n_sample,
+            sampling->wall_s, folder != NULL ? ", results in " : "", folder != NULL ? folder : "");
+    return judge(arguments, sampling);
+}
+
+/* Takes the samples of the folders to join. */
+static CzStatus recall(CzSampling *sampling, void *data, CzError *error) {
+    const CzArguments *arguments = data;
+    CzReportOptions options = cz_report_options_default();
+    options.csv_decimal = arguments->csv_decimal;
+    for (int i = 0; i < arguments->n_join; i++) {
+        const CzStatus status =
+            cz_report_read_samples(arguments->join[i], &options, sampling, error);
+        if (status != CZ_OK)
+            return status;
+    }
+    return CZ_OK;
+}
+
+static int sample_file(CzSession *session) {
+    const CzArguments *arguments = session->arguments;
+    const CzProblemOptions problem_options = cz_session_problem_options(arguments);
+    CzSampleOptions options = cz_sample_options_default();
+    options.n_sample = (int)arguments->n_sample;
+    options.seed = arguments->seed;
+    options.shard = arguments->shard;
+    options.n_shard = arguments->n_shard;
+    options.n_job = arguments->n_job;
+    options.text = session->text;
+    options.n_text = session->n_text;
+    options.stop = cz_interrupt_flag();
+    options.progress = cz_progress_count;
+    options.progress_data = (void *)arguments;
+    options.recall = recall;
+    options.recall_data = (void *)arguments;
+    CzSampling *sampling = NULL;
+    CzError error = {0};
+    int code;
+    cz_interrupt_catch();
+    if (cz_sample(session->file, &problem_options, &options, &sampling, &error) == CZ_OK)
+        code = finish(session, sampling);
+    else
+        code = cz_session_fail(session, &error);
+    cz_sampling_free(sampling);
+    return code;
+}
+
+int cz_command_sample(const CzArguments *arguments) {
+    CzSession session;
+    int code = cz_session_read(&session, arguments, arguments->operand[0]); /* reports mistakes */
+    if (code == 0)
+        code = cz_session_check_folder(&session, arguments->text[CZ_OPTION_OUTPUT],
+                                       arguments->text[CZ_OPTION_REPLACE] != NULL);
+    if (code == 0)
+        code = sample_file(&session);
+    cz_session_end(&session);
+    return code;
+}

@@ -1,0 +1,179 @@
+/* A sampling as a page: the share of passing samples, margins as histograms, what drives them, and
+ * the worst samples. */
+#include "report/page_sample.h"
+
+#include "base/error.h"
+#include "report/figure.h"
+#include "report/page.h"
+#include "report/sample_figures.h"
+#include "report/sample_replay.h"
+#include "report/sample_table.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_HISTOGRAMS = 6, MOST_TORNADOES = 4, MOST_FAILURES = 50 };
+
+static bool has_figures(const CzSampledCheck *check) {
+    return !check->is_flag && !isnan(check->margin.quantile[1]);
+}
+
+static void write_banner(CzMarkup *markup, const CzSampling *sampling) {
+    static const char *const classes[] = {[CZ_STYLE_GOOD] = "pass",
+                                          [CZ_STYLE_CAREFUL] = "careful",
+                                          [CZ_STYLE_BAD] = "fail",
+                                          [CZ_STYLE_PLAIN] = "careful",
+                                          [CZ_STYLE_SMALL] = "careful"};
+    CzStyle style;
+    char text[CZ_SAMPLE_SENTENCE];
+    const char *word = cz_sample_word(sampling->judgement, &style);
+    cz_markup_write(markup, "<header><p class='banner %s'>%s</p></header>\n", classes[style], word);
+    cz_sample_say_share(sampling, text);
+    cz_markup_write(markup, "<p><strong>%s.</strong></p>\n", text);
+    cz_sample_say_how(sampling, text);
+    cz_markup_write(markup,
+                    "<p>%s. The verdict is that of the %s of each check; the nominal design: "
+                    "%s.</p>\n",
+                    text, sampling->judged_by, cz_verdict_text(sampling->nominal.verdict));
+    if (sampling->is_interrupted)
+        cz_markup_write(markup,
+                        "<p class='fail'>The sampling was interrupted: samples are missing.</p>");
+}
+
+static void write_nav(CzMarkup *markup) {
+    cz_markup_write(markup, "<nav><a href='#checks'>checks</a> <a href='#margins'>margins</a> "
+                            "<a href='#drivers'>what drives them</a> "
+                            "<a href='#matrix'>worst check</a> "
+                            "<a href='#convergence'>number of samples</a> "
+                            "<a href='#worst'>worst samples</a> "
+                            "<a href='#numbers'>random numbers</a></nav>\n");
+}
+
+static void write_checks(CzMarkup *markup, const CzSampling *sampling, const int *order) {
+    CzReportTable table;
+    cz_markup_write(
+        markup,
+        "<section id='checks'>\n<h2>Checks</h2>\n"
+        "<p>Nominal is the margin of the design as written, with its reserves; bare is the same by "
+        "the limits that hold in samples. Then the quantiles of the margins of the samples, the "
+        "smallest "
+        "one, the number of samples that fail, and the sample with the smallest margin.</p>");
+    (void)cz_sample_begin_checks(&table, sampling, order, INT_MAX);
+    cz_table_write_page(&table, markup);
+    cz_markup_write(markup, "</section>\n");
+}
+
+typedef void DrawCheck(const CzSampling *sampling, int check, CzMarkup *markup);
+
+/* Figures of the first checks in the order that have margins. */
+static void write_figures(CzMarkup *markup, const CzSampling *sampling, const int *order, int most,
+                          DrawCheck *draw) {
+    cz_markup_write(markup, "<div class='figures'>");
+    for (int i = 0, n = 0; i < sampling->n_check && n < most; i++)
+        if (has_figures(&sampling->check[order[i]])) {
+            draw(sampling, order[i], markup);
+            n++;
+        }
+    cz_markup_write(markup, "</div></section>\n");
+}
+
+static void write_matrix(CzMarkup *markup, const CzSampling *sampling, const int *order) {
+    for (int i = 0; i < sampling->n_check; i++) {
+        if (!has_figures(&sampling->check[order[i]]))
+            continue;
+        cz_markup_write(markup, "<section id='matrix'>\n<h2>The worst check and its strongest "
+                                "random numbers</h2>\n<div class='wide'>");
+        cz_sample_draw_matrix(sampling, order[i], markup);
+        cz_markup_write(markup, "</div></section>\n");
+        return;
+    }
+}
+
+/* One line for a sample that is the worst of a check. */
+static void put_worst(CzReportTable *table, const CzReport *report, int k) {
+    const CzSampling *sampling = report->sampling;
+    const CzSample *sample = &sampling->sample[k];
+    char text[CZ_FIGURE_ROOM], file[CZ_REPLAY_ROOM];
+    cz_replay_name(k, file);
+    cz_table_put(table, cz_figure_digits(text, 9, k + 1));
+    cz_table_put(table, sample->check >= 0 ? sampling->check[sample->check].name
+                                           : cz_sample_state_text(sample->state));
+    cz_table_put(table, sample->check >= 0 ? sampling->check[sample->check].scenario : "");
+    cz_table_put(table, isinf(sample->margin) ? "failed" : cz_figure_margin(text, sample->margin));
+    cz_table_put_format(table, "crushzone check %s", file);
+}
+
+static void write_worst(CzMarkup *markup, const CzReport *report) {
+    const CzSampling *sampling = report->sampling;
+    CzReportTable table;
+    cz_markup_write(markup, "<section id='worst'>\n<h2>Worst samples</h2>\n"
+                            "<p>Each is the worst of at least one check. The command judges it "
+                            "again, beside the design as written; it is given from the folder of "
+                            "this page.</p>");
+    cz_table_begin(&table, ">sample;check with the smallest margin;scenario;>margin;command");
+    for (int k = 0; k < sampling->n_sample; k++)
+        if (cz_replay_is_written(sampling, k))
+            put_worst(&table, report, k);
+    cz_table_write_page(&table, markup);
+    for (int k = 0, n = 0; k < sampling->n_sample && n < MOST_FAILURES; k++)
+        if (sampling->sample[k].message != NULL) {
+            n++;
+            cz_markup_write(markup, "<p class='fail'>Sample %d %s: %s</p>\n", k + 1,
+                            cz_sample_state_text(sampling->sample[k].state),
+                            sampling->sample[k].message);
+        }
+    cz_markup_write(markup, "</section>\n");
+}
+
+static void write_draws(CzMarkup *markup, const CzSampling *sampling) {
+    CzReportTable table;
+    cz_markup_write(markup, "<section id='numbers'>\n<h2>Random numbers</h2>\n");
+    cz_sample_begin_draws(&table, sampling);
+    cz_table_write_page(&table, markup);
+    cz_markup_write(markup, "</section>\n");
+}
+
+static void write_parts(CzMarkup *markup, const CzReport *report, const int *order) {
+    const CzSampling *sampling = report->sampling;
+    write_nav(markup);
+    write_checks(markup, sampling, order);
+    cz_markup_write(markup,
+                    "<section id='margins'>\n<h2>Margins</h2>\n<p>Those that fail most often, or "
+                    "have the smallest margins. Margins below -100 %% are drawn at -100 %%, runs "
+                    "that failed too.</p>");
+    write_figures(markup, sampling, order, MOST_HISTOGRAMS, cz_sample_draw_histogram);
+    cz_markup_write(markup,
+                    "<section id='drivers'>\n<h2>What drives the margins</h2>\n<p>Rank correlation "
+                    "of each random number with the margin: green to the right, the margin grows "
+                    "with the number; orange to the left, it falls. Correlations below %s cannot "
+                    "be told from chance.</p>",
+                    sampling->n_run > 3 ? "2 / \xe2\x88\x9an" : "1");
+    write_figures(markup, sampling, order, MOST_TORNADOES, cz_sample_draw_tornado);
+    write_matrix(markup, sampling, order);
+    cz_markup_write(markup, "<section id='convergence'>\n<h2>Number of samples</h2>\n"
+                            "<div class='figures'>");
+    cz_sample_draw_convergence(sampling, markup);
+    cz_markup_write(markup, "</div></section>\n");
+    write_worst(markup, report);
+}
+
+CzStatus cz_page_write_sample(const CzReport *report, FILE *stream, CzError *error) {
+    const CzSampling *sampling = report->sampling;
+    CzMarkup markup = {.stream = stream};
+    char title[CZ_SENTENCE_ROOM];
+    int *order = cz_sample_order(sampling);
+    if (order == NULL)
+        return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report");
+    snprintf(title, sizeof title, "%s, sampled", cz_problem_title(sampling->problem));
+    cz_page_write_head(&markup, title);
+    cz_markup_write(&markup, "<h1>%s</h1>", title);
+    write_banner(&markup, sampling);
+    if (sampling->n_run > 0)
+        write_parts(&markup, report, order);
+    write_draws(&markup, sampling);
+    cz_page_write_foot(&markup);
+    free(order);
+    return markup.failed ? cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report") : CZ_OK;
+}

@@ -1,0 +1,66 @@
+/* A sample as a problem file: the file of the problem with the sample's scenarios behind its own.
+ */
+#include "report/sample_replay.h"
+
+#include "base/number.h"
+#include "evaluate/sampling.h"
+#include "report/figure.h"
+#include "report/overlay.h"
+#include "report/sample_table.h"
+
+#include <string.h>
+
+bool cz_replay_is_written(const CzSampling *sampling, int sample) {
+    bool is_worst = sampling->smallest.worst == sample;
+    for (int c = 0; c < sampling->n_check; c++)
+        is_worst |= sampling->check[c].margin.worst == sample;
+    return is_worst && sampling->sample[sample].state != CZ_SAMPLE_INVALID;
+}
+
+void cz_replay_name(int sample, char name[CZ_REPLAY_ROOM]) {
+    snprintf(name, CZ_REPLAY_ROOM, "replay/sample-%d.yaml", sample + 1);
+}
+
+/* The checks of which the sample is the worst, as a comment. */
+static void write_reason(const CzSampling *sampling, int sample, FILE *stream) {
+    fprintf(stream, "# Sample %d of %d, seed %ld: the worst of these checks.\n", sample + 1,
+            sampling->n_sample, sampling->seed);
+    for (int c = 0; c < sampling->n_check; c++) {
+        const CzSampledCheck *check = &sampling->check[c];
+        char text[CZ_FIGURE_ROOM];
+        if (check->margin.worst == sample)
+            fprintf(stream, "#   %s, %s: margin %s\n", check->name, check->scenario,
+                    cz_figure_margin(text, cz_sample_margin(sampling, sample, c)));
+    }
+}
+
+static void write_changes(const CzSampling *sampling, int sample, FILE *stream) {
+    static const char *const keys[] = {
+        [CZ_DRAW_VALUE] = "value", [CZ_DRAW_FACTOR] = "factor", [CZ_DRAW_ADD] = "add"};
+    for (int d = 0; d < sampling->n_draw; d++)
+        for (int i = 0; i < sampling->draw[d].n_path; i++) {
+            char number[CZ_NUMBER_TEXT];
+            fputs("      - {path: ", stream);
+            cz_overlay_write_text(sampling->draw[d].path[i], stream);
+            fprintf(stream, ", %s: %s}\n", keys[sampling->draw[d].effect],
+                    cz_number_print(number, cz_sample_value(sampling, sample, d)));
+        }
+}
+
+void cz_replay_write(const CzReport *report, int sample, const char *folder, FILE *stream) {
+    const CzSampling *sampling = report->sampling;
+    const CzSamplingParts *parts = sampling->parts;
+    const CzProblem *problem = sampling->problem;
+    write_reason(sampling, sample, stream);
+    cz_overlay_write_base(report, problem, folder, "../", stream);
+    fputs("scenarios:\n", stream);
+    if (cz_problem_n_scenario(problem) == 1) /* a file without scenarios has this one unwritten */
+        fprintf(stream, "  - {name: %s}\n", cz_problem_scenario_name(problem, 0));
+    for (int j = 0; j < parts->n_scenario; j++) {
+        char name[CZ_NAME_ROOM];
+        cz_sample_case_name(sampling, parts->scenario[j], sample, name);
+        fprintf(stream, "  - name: %s\n    like: %s\n    reserves: false\n    changes:\n", name,
+                cz_problem_scenario_name(problem, parts->scenario[j]));
+        write_changes(sampling, sample, stream);
+    }
+}

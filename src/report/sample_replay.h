@@ -1,0 +1,18 @@
+/* Samples as problem files, which `check` judges with the same results. */
+#ifndef CZ_REPORT_SAMPLE_REPLAY_H
+#define CZ_REPORT_SAMPLE_REPLAY_H
+
+#include "crushzone/report.h"
+
+/* Whether a sample is written: it is the worst one of a check, or of all. */
+bool cz_replay_is_written(const CzSampling *sampling, int sample);
+
+enum { CZ_REPLAY_ROOM = 40 };
+/* Name of its file in the result folder. */
+void cz_replay_name(int sample, char name[CZ_REPLAY_ROOM]);
+
+/* Writes the scenarios of a sample as a file that extends the problem; `folder` is the final path
+ * of the result folder. */
+void cz_replay_write(const CzReport *report, int sample, const char *folder, FILE *stream);
+
+#endif

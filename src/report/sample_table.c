@@ -1,0 +1,226 @@
+/* A sampling on a terminal and on its page: the share of passing samples, checks, draws. */
+#include "report/sample_table.h"
+
+#include "report/figure.h"
+#include "report/tables.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- order of checks ---- */
+
+/* Sort key: checks that fail in samples first, the most often failing first, then by the margin of
+ * the 5 % quantile. */
+static double order_of(const CzSampledCheck *check) {
+    const double most = 1e9;
+    if (check->n_fail > 0)
+        return -most * check->n_fail;
+    const double margin = check->margin.quantile[0];
+    return isnan(margin) ? most : fmin(fmax(margin, -most), most);
+}
+
+int *cz_sample_order(const CzSampling *sampling) {
+    int *order = malloc(((size_t)sampling->n_check + 1) * sizeof *order);
+    for (int i = 0; order != NULL && i < sampling->n_check; i++) {
+        int at = i;
+        for (; at > 0 && order_of(&sampling->check[i]) < order_of(&sampling->check[order[at - 1]]);
+             at--)
+            order[at] = order[at - 1];
+        order[at] = i;
+    }
+    return order;
+}
+
+double cz_sample_margin(const CzSampling *sampling, int sample, int check) {
+    return sampling->margin[(size_t)sample * (size_t)sampling->n_check + (size_t)check];
+}
+
+double cz_sample_value(const CzSampling *sampling, int sample, int draw) {
+    return sampling->value[(size_t)sample * (size_t)sampling->n_draw + (size_t)draw];
+}
+
+/* ---- sentences ---- */
+
+/* Part of a sentence about a number of samples. */
+static void append(char text[CZ_SAMPLE_SENTENCE], const char *between, int n, const char *what) {
+    const size_t used = strlen(text);
+    snprintf(text + used, CZ_SAMPLE_SENTENCE - used, "%s%d %s", between, n, what);
+}
+
+void cz_sample_say_share(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]) {
+    const CzSampledShare *passing = &sampling->passing;
+    char share[CZ_FIGURE_ROOM], low[CZ_FIGURE_ROOM], high[CZ_FIGURE_ROOM];
+    snprintf(text, CZ_SAMPLE_SENTENCE, "%d of %d samples pass: %s %% (95 %% interval %s to %s %%)",
+             passing->n_pass, passing->n, cz_figure_digits(share, 3, 100 * passing->share),
+             cz_figure_digits(low, 3, 100 * passing->low),
+             cz_figure_digits(high, 3, 100 * passing->high));
+    if (sampling->n_failed > 0)
+        append(text, "; ", sampling->n_failed,
+               sampling->n_failed == 1 ? "of them gave no result and counts as failing"
+                                       : "of them gave no result and count as failing");
+}
+
+void cz_sample_say_how(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]) {
+    snprintf(text, CZ_SAMPLE_SENTENCE, "%d samples of %d random numbers, %s, seed %ld",
+             sampling->n_sample, sampling->n_draw, sampling->method, sampling->seed);
+    if (sampling->n_shard > 1) {
+        const size_t used = strlen(text);
+        snprintf(text + used, CZ_SAMPLE_SENTENCE - used, "; here shard %d of %d: samples %d to %d",
+                 sampling->shard, sampling->n_shard, sampling->begin + 1, sampling->end);
+    }
+}
+
+const char *cz_sample_word(CzVerdict verdict, CzStyle *style) {
+    static const struct {
+        const char *word;
+        CzStyle style;
+    } looks[] = {[CZ_VERDICT_PASS] = {"PASS", CZ_STYLE_GOOD},
+                 [CZ_VERDICT_PROVISIONAL] = {"PROVISIONAL PASS", CZ_STYLE_CAREFUL},
+                 [CZ_VERDICT_FAIL] = {"FAIL", CZ_STYLE_BAD},
+                 [CZ_VERDICT_NOT_CHECKED] = {"NOT CHECKED", CZ_STYLE_CAREFUL}};
+    *style = looks[verdict].style;
+    return looks[verdict].word;
+}
+
+/* ---- checks ---- */
+
+static void put_margin(CzReportTable *table, double margin) {
+    char text[CZ_FIGURE_ROOM];
+    const bool is_failed = isinf(margin);
+    cz_table_put_styled(table, is_failed ? "failed" : cz_figure_margin(text, margin),
+                        margin < 0 ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
+}
+
+static void put_check(CzReportTable *table, const CzSampling *sampling,
+                      const CzSampledCheck *check) {
+    char text[CZ_FIGURE_ROOM];
+    cz_table_put(table, check->name);
+    cz_table_put(table, check->scenario);
+    put_margin(table, check->nominal);
+    put_margin(table, check->bare);
+    for (int i = 0; i < CZ_N_SAMPLE_QUANTILE; i++)
+        put_margin(table, check->margin.quantile[i]);
+    put_margin(table, check->margin.least);
+    cz_table_put_styled(table, cz_figure_digits(text, 9, check->n_fail),
+                        check->n_fail > 0 ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
+    cz_table_put(
+        table, check->margin.worst >= 0 ? cz_figure_digits(text, 9, check->margin.worst + 1) : "-");
+    if (check->strongest < 0)
+        cz_table_put(table, "");
+    else
+        cz_table_put_format(table, "%s (%s)", sampling->draw[check->strongest].name,
+                            cz_figure_fixed(text, 2, check->correlation[check->strongest]));
+}
+
+/* Whether a check says something: it has a margin, or fails. */
+static bool is_shown(const CzSampledCheck *check) {
+    return check->n_fail > 0 || !isnan(check->margin.quantile[1]);
+}
+
+int cz_sample_begin_checks(CzReportTable *table, const CzSampling *sampling, const int *order,
+                           int most) {
+    int n = 0, n_more = 0;
+    cz_table_begin(table, "check;scenario;>nominal;>bare;>5 %;>50 %;>95 %;>least;>failing;>worst;"
+                          "strongest draw (rank correlation)");
+    for (int i = 0; i < sampling->n_check; i++) {
+        const CzSampledCheck *check = &sampling->check[order[i]];
+        if (!is_shown(check))
+            continue;
+        if (n < most || check->n_fail > 0)
+            put_check(table, sampling, check), n++;
+        else
+            n_more++;
+    }
+    return n_more;
+}
+
+/* ---- draws ---- */
+
+static void put_draw(CzReportTable *table, const CzDraw *draw) {
+    char low[CZ_FIGURE_ROOM], high[CZ_FIGURE_ROOM];
+    const bool is_factor = draw->effect == CZ_DRAW_FACTOR;
+    const double scale = is_factor ? 100 : 1, zero = is_factor ? 1 : 0;
+    const char *unit = is_factor ? "%" : draw->unit;
+    const bool is_change = draw->effect != CZ_DRAW_VALUE;
+    cz_figure_digits(low, 4, scale * (draw->low - zero));
+    cz_figure_digits(high, 4, scale * (draw->high - zero));
+    cz_table_put(table, draw->name);
+    cz_table_put(table, draw->distribution);
+    cz_table_put_format(table, "%s to %s%s%s%s", low, is_change ? "+" : "", high,
+                        unit[0] != '\0' ? " " : "", unit);
+    cz_table_put(table, cz_figure_digits(low, 9, draw->n_place));
+}
+
+void cz_sample_begin_draws(CzReportTable *table, const CzSampling *sampling) {
+    cz_table_begin(table, "random number;distribution;range;>values");
+    for (int d = 0; d < sampling->n_draw; d++)
+        put_draw(table, &sampling->draw[d]);
+}
+
+/* ---- the terminal ---- */
+
+enum { MOST_CHECKS = 12, MOST_DRAWS = 24, MOST_FAILURES = 8 };
+
+static void write_failures(const CzSampling *sampling, CzTerminal *terminal) {
+    for (int k = 0, n = 0; k < sampling->n_sample && n < MOST_FAILURES; k++) {
+        const CzSample *sample = &sampling->sample[k];
+        if (sample->message == NULL)
+            continue;
+        n++;
+        cz_terminal_say(terminal, CZ_STYLE_BAD, "Sample %d %s: %s\n", k + 1,
+                        cz_sample_state_text(sample->state), sample->message);
+    }
+    if (sampling->n_failed > MOST_FAILURES)
+        cz_terminal_say(terminal, CZ_STYLE_BAD, "and %d more without results.\n",
+                        sampling->n_failed - MOST_FAILURES);
+}
+
+static void write_checks(const CzSampling *sampling, CzTerminal *terminal) {
+    CzReportTable table;
+    int *order = cz_sample_order(sampling);
+    if (order == NULL) {
+        terminal->failed = true;
+        return;
+    }
+    const int n_more = cz_sample_begin_checks(&table, sampling, order, MOST_CHECKS);
+    cz_table_write_text(&table, terminal);
+    if (n_more > 0)
+        cz_terminal_say(terminal, CZ_STYLE_PLAIN,
+                        "%d more checks of a scenario pass in all samples, by larger margins.\n",
+                        n_more);
+    free(order);
+}
+
+static void write_judgement(const CzSampling *sampling, CzTerminal *terminal) {
+    CzStyle style;
+    const char *word = cz_sample_word(sampling->judgement, &style);
+    cz_terminal_say(terminal, style, "%s", word);
+    cz_terminal_say(terminal, CZ_STYLE_PLAIN,
+                    ", judged by the %s of each check. The nominal design: %s.\n",
+                    sampling->judged_by, cz_verdict_text(sampling->nominal.verdict));
+}
+
+void cz_sample_write_table(const CzReport *report, CzTerminal *terminal) {
+    const CzSampling *sampling = report->sampling;
+    CzReportTable table;
+    char text[CZ_SAMPLE_SENTENCE];
+    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n", cz_problem_title(sampling->problem));
+    cz_sample_say_how(sampling, text);
+    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n\n", text);
+    if (sampling->n_draw <= MOST_DRAWS) {
+        cz_sample_begin_draws(&table, sampling);
+        cz_table_write_text(&table, terminal);
+        fputc('\n', terminal->stream);
+    }
+    if (sampling->n_run > 0) {
+        write_checks(sampling, terminal);
+        fputc('\n', terminal->stream);
+        write_failures(sampling, terminal);
+        cz_sample_say_share(sampling, text);
+        cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s.\n", text);
+    }
+    write_judgement(sampling, terminal);
+    if (sampling->is_interrupted)
+        cz_terminal_say(terminal, CZ_STYLE_BAD, "INTERRUPTED: samples are missing.\n");
+}

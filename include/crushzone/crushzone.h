@@ -13,6 +13,8 @@
  *
  *   problem file --> cz_sweep --> CzSweep (the same line for every value of a path) --> report
  *
+ *   CzProblem --> cz_pareto --> CzPareto (a front of optima) --> report
+ *
  *   measured curve --> CzFit --> stages of a problem file
  *
  * SI units inside; compression positive, x forward, z up, pitch positive nose-up.
@@ -27,6 +29,7 @@
 #include "crushzone/fit.h"
 #include "crushzone/model.h"
 #include "crushzone/optimise.h"
+#include "crushzone/pareto.h"
 #include "crushzone/problem.h"
 #include "crushzone/report.h"
 #include "crushzone/simulate.h"

@@ -131,6 +131,14 @@ CZ_API CzVerdict cz_verdict_over(const CzEvaluation *evaluation, int n_name,
  * checks that were not made, passes by margin, checks that do not apply. */
 CZ_API bool cz_check_is_worse(const CzCheckResult *check, const CzCheckResult *other);
 
+/* Objective and constraints of a search in place of those of the file. Texts are borrowed. */
+typedef struct CzAim {
+    const char *minimise; /* a metric; NULL: the smallest margin is maximised */
+    double margin;        /* required of every constraint, at least that of the file; NaN: that */
+    const char *bounded;  /* a metric with a further upper limit; NULL when none */
+    double bound;         /* that limit, in the metric's unit */
+} CzAim;
+
 typedef struct CzEvaluatorOptions {
     int n_job;               /* threads; 0: one per processor */
     double step_factor;      /* factor on every time step; 1 for production runs */
@@ -138,6 +146,7 @@ typedef struct CzEvaluatorOptions {
     const char *scenario;    /* only this scenario or family; NULL for all. Checks of the others are
                                 then NOT CHECKED */
     int first_scenario;      /* scenarios before this one, counted from 0, are left out likewise */
+    const CzAim *aim;        /* NULL: objective and constraints of the file */
 } CzEvaluatorOptions;
 CZ_API CzEvaluatorOptions cz_evaluator_options_default(void);
 

@@ -67,6 +67,8 @@ typedef struct CzOptimiseOptions {
     const char *algorithm; /* "auto" or an NLopt name such as "LN_COBYLA"; NULL: that of the file */
     long evaluations;      /* largest number of evaluations; 0: that of the file */
     long seed;             /* -1 takes the file's */
+    const double *start;   /* design at which the search begins, in the variables' units; NULL:
+                              that of the file (n_variable) */
     unsigned verify_methods;           /* methods of verification of a design that passes, as in
                                           CzVerifyOptions; by default all but Adams, 0 for none */
     const volatile sig_atomic_t *stop; /* a flag that ends the search when not 0; NULL when none */

@@ -13,6 +13,7 @@
 #include "crushzone/fit.h"
 #include "crushzone/optimise.h"
 #include "crushzone/sample.h"
+#include "crushzone/pareto.h"
 #include "crushzone/sweep.h"
 #include "crushzone/verify.h"
 
@@ -59,6 +60,7 @@ typedef enum CzReportKind {
     CZ_REPORT_SEARCH,       /* problem, evaluator, outcome */
     CZ_REPORT_SWEEP,        /* sweep */
     CZ_REPORT_SAMPLE,       /* problem, sampling */
+    CZ_REPORT_PARETO,       /* problem, pareto */
     CZ_REPORT_VERIFICATION, /* problem, verification */
     CZ_REPORT_BENCHMARK,    /* problem, benchmark */
     CZ_REPORT_EXPLANATION,  /* problem, explanation */
@@ -78,6 +80,7 @@ typedef struct CzReport {
     const CzOutcome *outcome;
     const CzSweep *sweep;
     const CzSampling *sampling;
+    const CzPareto *pareto;
     const CzVerification *verification;
     const CzBenchmark *benchmark;
     const CzExplanation *explanation;
@@ -108,9 +111,13 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_table(const CzReport *report, bool
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_page(const CzReport *report, FILE *stream,
                                                    CzError *error);
 
-/* The whole result folder of a run, a search, a sweep or a sampling: to a temporary name first,
- * renamed at the end; replaces only a folder of our own. Needs runs that were kept. Statuses:
- * CZ_STATUS_OUTPUT, CZ_STATUS_NO_MEMORY. */
+/* The figure of a front as an SVG document. Status: CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_front(const CzPareto *pareto, FILE *stream,
+                                                    CzError *error);
+
+/* The whole result folder of a run, a search, a sweep, a sampling or a front: to a temporary name
+ * first, renamed at the end; replaces only a folder of our own. Needs runs that were kept.
+ * Statuses: CZ_STATUS_OUTPUT, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_folder(const CzReport *report, const char *folder,
                                                      CzError *error);
 

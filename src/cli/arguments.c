@@ -128,6 +128,8 @@ static CzStatus keep_option(Reader *reader, int option, const char *value) {
         arguments->vary[arguments->n_vary++] = value;
     else if (option == CZ_OPTION_METRIC)
         arguments->metric[arguments->n_metric++] = value;
+    else if (option == CZ_OPTION_MINIMISE)
+        arguments->minimise[arguments->n_minimise++] = value;
     else if (option == CZ_OPTION_CHECK)
         arguments->check[arguments->n_check++] = value;
     else if (option == CZ_OPTION_JOIN)
@@ -235,7 +237,7 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
     static const CzOption by_words[] = {CZ_OPTION_COLOR, CZ_OPTION_INTEGRATOR, CZ_OPTION_BASIS,
                                         CZ_OPTION_FLIP, CZ_OPTION_COMPLETION};
     int chosen[] = {CZ_COLOUR_AUTO, CZ_INTEGRATOR_ZHAI, -1, -1, 0}, separator = 0, decimal = 0;
-    long n_job = 0, n_stage = -1;
+    long n_job = 0, n_stage = -1, n_point = 0;
     CZ_TRY(read_whole(arguments, CZ_OPTION_JOBS, 1, 1024, &n_job, error));
     CZ_TRY(
         read_whole(arguments, CZ_OPTION_EVALUATIONS, 1, 100000000, &arguments->evaluations, error));
@@ -245,6 +247,7 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
     CZ_TRY(read_whole(arguments, CZ_OPTION_SAMPLES, 1, 1000000, &arguments->n_sample, error));
     CZ_TRY(read_shard(arguments, error));
     CZ_TRY(read_whole(arguments, CZ_OPTION_STAGES, 0, 100, &n_stage, error));
+    CZ_TRY(read_whole(arguments, CZ_OPTION_POINTS, 2, 99, &n_point, error));
     for (size_t i = 0; i < sizeof by_words / sizeof *by_words; i++)
         CZ_TRY(
             read_choice(arguments, by_words[i], cz_options[by_words[i]].value, &chosen[i], error));
@@ -256,6 +259,7 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
     arguments->flip = chosen[3];
     arguments->n_job = (int)n_job;
     arguments->n_stage = (int)n_stage;
+    arguments->n_point = (int)n_point;
     arguments->csv_decimal = ".,"[decimal];
     /* With decimal commas the fields are separated by semicolons. */
     const bool implied = arguments->text[CZ_OPTION_CSV_SEP] == NULL && decimal == 1;
@@ -316,6 +320,10 @@ static CzStatus check_operands(const CzArguments *arguments, CzError *error) {
         (arguments->n_vary < 1 || arguments->n_vary > CZ_MOST_AXES))
         return cz_fail(error, CZ_STATUS_INPUT,
                        "'crushzone sweep' needs --vary PATH=A:B:N once or twice");
+    if (arguments->command == CZ_COMMAND_PARETO && arguments->n_minimise != 2)
+        return cz_fail(error, CZ_STATUS_INPUT,
+                       "'crushzone pareto' needs --minimise NAME twice" CZ_HELP
+                       "one of them may be margin, the smallest margin of all checks");
     if (arguments->text[CZ_OPTION_RESUME] != NULL && arguments->text[CZ_OPTION_OUTPUT] != NULL)
         return cz_fail(error, CZ_STATUS_INPUT,
                        "--resume takes no -o: the search goes on in its own folder");
@@ -340,7 +348,7 @@ CzStatus cz_arguments_read(int argc, char **argv, CzArguments *arguments, CzErro
     if (arguments->command == CZ_N_COMMAND)
         return unknown_command(argv[1], &nearest, error);
     const size_t most = (size_t)argc + 1; /* of each list */
-    const char **room = calloc(6 * most, sizeof *room);
+    const char **room = calloc(7 * most, sizeof *room);
     if (room == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the command line");
     arguments->operand = room;
@@ -349,6 +357,7 @@ CzStatus cz_arguments_read(int argc, char **argv, CzArguments *arguments, CzErro
     arguments->metric = room + 3 * most;
     arguments->check = room + 4 * most;
     arguments->join = room + 5 * most;
+    arguments->minimise = room + 6 * most;
     Reader reader = {.argc = argc, .next = 2, .argv = argv, .arguments = arguments, .error = error};
     while (reader.next < argc)
         CZ_TRY(read_word(&reader));

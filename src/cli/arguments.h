@@ -50,6 +50,8 @@ typedef struct CzArguments {
     int n_vary;
     const char **metric; /* names (n_metric) */
     int n_metric;
+    const char **minimise; /* names (n_minimise) */
+    int n_minimise;
     const char **check; /* names (n_check) */
     int n_check;
     const char **join; /* folders (n_join) */
@@ -62,6 +64,7 @@ typedef struct CzArguments {
     long rounds;        /* 0: the default */
     long n_sample;      /* 0: that of the file */
     int shard, n_shard; /* 1 and 1: all samples */
+    int n_point;        /* 0: the default */
     int n_stage;        /* -1: as many as the curve requires */
     int basis, flip;    /* words of these options, counted from 0; -1: not given */
     CzIntegrator integrator;

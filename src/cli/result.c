@@ -21,6 +21,8 @@ static int find_file(CzResult *result, const char *operand) {
                 "%.200s is not a result folder: it has no resolved.yaml" CZ_HELP "%s", operand,
                 cz_recall_is_there(operand, "sweep.json")
                     ? "it is the folder of a sweep, whose report was written by the sweep"
+                : cz_recall_is_there(operand, "pareto.json")
+                    ? "it is the folder of a front, whose report was written with it"
                     : "");
         return cz_tell_error(&result->arguments, &error);
     }

@@ -9,6 +9,7 @@ set(CZ_SOURCES_cli
     command_figures.c
     command_new.c
     command_optimise.c
+    command_pareto.c
     command_problem.c
     command_run.c
     command_sample.c

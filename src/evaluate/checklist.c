@@ -419,3 +419,30 @@ CzStatus cz_checklist_build(const CzProblem *problem, int n_scene, const CzScene
     CZ_TRY(check_judges_exist(&builder));
     return choose_constraints(&builder);
 }
+
+CzStatus cz_checklist_aim(const CzProblem *problem, const CzAim *aim, int n_scene,
+                          const CzScene *scene, CzArena *arena, CzChecklist *checklist,
+                          CzError *error) {
+    Builder builder = {.problem = problem,
+                       .n_scene = n_scene,
+                       .scene = scene,
+                       .arena = arena,
+                       .list = checklist,
+                       .error = error};
+    if (!isnan(aim->margin))
+        checklist->required_margin = fmax(checklist->required_margin, aim->margin);
+    if (aim->bounded == NULL)
+        return CZ_OK;
+    const int n_before = checklist->n_check;
+    const char *name = cz_arena_copy_text(arena, aim->bounded, strlen(aim->bounded));
+    if (name == NULL)
+        return cz_no_memory(error, "the checks");
+    const CzLimit limit = {
+        .name = (char *)name, .metric = (char *)name, .max = aim->bound, .min = NAN, .scale = NAN};
+    CZ_TRY(append_limit(&builder, &limit, NULL, true));
+    for (int i = n_before; i < checklist->n_check; i++) { /* the limit itself, without a margin */
+        checklist->check[i].is_constraint = checklist->check[i].is_bare = true;
+        checklist->n_constraint++;
+    }
+    return CZ_OK;
+}

@@ -55,6 +55,11 @@ static inline double cz_checklist_required(const CzChecklist *list, const CzChec
 /* Name of the scenario of a check: "design" for a check of the design as written. */
 const char *cz_check_scenario(const CzCheck *check, const CzScene *scene);
 
+/* Adds the margin and the upper limit of an aim to the constraints of a list. Statuses as above. */
+CZ_MUST_CHECK CzStatus cz_checklist_aim(const CzProblem *problem, const CzAim *aim, int n_scene,
+                                        const CzScene *scene, CzArena *arena,
+                                        CzChecklist *checklist, CzError *error);
+
 /* Evaluates one check. `subject` has the run of the check's scenario, NULL when there is none;
  * `failure` is then the reason, NULL otherwise. */
 CzCheckResult cz_check_judge(const CzCheck *check, const CzSubject *subject, const char *failure);

@@ -130,23 +130,28 @@ static void count_details(CzEvaluator *evaluator) {
     }
 }
 
-static CzStatus build_objective(CzEvaluator *evaluator, CzError *error) {
+static CzStatus build_objective(CzEvaluator *evaluator, const CzAim *aim, CzError *error) {
     const CzOptimise *optimise = &cz_problem_input(evaluator->problem)->optimise;
     evaluator->objective_name = "smallest margin, negative";
     evaluator->objective_unit = "";
     if (evaluator->matches.n_item > 0)
         evaluator->objective_name = "weighted sum of squared residuals";
-    if (!optimise->given || optimise->minimise == NULL)
+    const char *written = optimise->given ? optimise->minimise : NULL;
+    const char *minimise = aim != NULL ? aim->minimise : written;
+    if (minimise == NULL)
         return CZ_OK;
-    CZ_TRY(cz_problem_place_failure(
-        evaluator->problem, &optimise->minimise,
-        cz_metric_parse(optimise->minimise, &evaluator->objective, error), error));
-    evaluator->objective_name = optimise->minimise;
+    const CzStatus status = cz_metric_parse(minimise, &evaluator->objective, error);
+    if (status != CZ_OK && aim == NULL)
+        return cz_problem_place_failure(evaluator->problem, &optimise->minimise, status, error);
+    CZ_TRY(status);
+    evaluator->objective_name = cz_arena_copy_text(&evaluator->arena, minimise, strlen(minimise));
+    if (evaluator->objective_name == NULL)
+        return cz_no_memory(error, "the objective");
     evaluator->objective_unit = evaluator->objective.kind->unit->text;
     return CZ_OK;
 }
 
-static CzStatus build(CzEvaluator *evaluator, const char *only, CzError *error) {
+static CzStatus build(CzEvaluator *evaluator, const CzEvaluatorOptions *options, CzError *error) {
     const CzProblem *problem = evaluator->problem;
     CzArena *arena = &evaluator->arena;
     cz_problem_vehicles(problem, &evaluator->n_vehicle);
@@ -163,12 +168,15 @@ static CzStatus build(CzEvaluator *evaluator, const char *only, CzError *error) 
                                &evaluator->design, error));
     CZ_TRY(cz_checklist_build(problem, evaluator->n_scene, evaluator->scene, arena,
                               &evaluator->list, error));
+    if (options->aim != NULL)
+        CZ_TRY(cz_checklist_aim(problem, options->aim, evaluator->n_scene, evaluator->scene, arena,
+                                &evaluator->list, error));
     CZ_TRY(cz_matches_build(problem, evaluator->n_scene, evaluator->scene, arena,
                             &evaluator->matches, error));
     CZ_TRY(list_constraints(evaluator, error));
-    CZ_TRY(build_objective(evaluator, error));
+    CZ_TRY(build_objective(evaluator, options->aim, error));
     count_details(evaluator);
-    return build_models(evaluator, only, error);
+    return build_models(evaluator, options->scenario, error);
 }
 
 CzStatus cz_evaluator_build(const CzProblem *problem, const CzEvaluatorOptions *options,
@@ -185,7 +193,7 @@ CzStatus cz_evaluator_build(const CzProblem *problem, const CzEvaluatorOptions *
     built->n_job = given.n_job > 0 ? given.n_job : cz_processor_count();
     built->first_scenario = given.first_scenario;
     built->manner = (CzManner){.step_factor = given.step_factor, .integrator = given.integrator};
-    const CzStatus status = build(built, given.scenario, error);
+    const CzStatus status = build(built, &given, error);
     if (status != CZ_OK) {
         cz_evaluator_free(built);
         return status;

@@ -89,7 +89,7 @@ static CzStatus search_choices(int n, const CzOptimiseOptions *options,
     int n_failed = 0;
     for (int combination = 0; combination < n && left > 0; combination++) {
         const CzStatus status =
-            begin(combinations, combination, NULL, half > 0 ? half : 1, options, error);
+            begin(combinations, combination, options->start, half > 0 ? half : 1, options, error);
         const CzSearch *search = &combinations->subspace[combinations->n - 1].search;
         n_failed += status == CZ_STATUS_RUN_FAILED;
         if (status != CZ_OK && (status != CZ_STATUS_RUN_FAILED || n_failed == n))
@@ -98,12 +98,16 @@ static CzStatus search_choices(int n, const CzOptimiseOptions *options,
         if (search->status == CZ_STATUS_INTERRUPTED)
             return CZ_OK;
     }
-    const CzSearch *best = &combinations->subspace[combinations->chosen].search;
+    const CzSubspace *chosen = &combinations->subspace[combinations->chosen];
+    const CzSearch *best = &chosen->search;
     const long record = cz_combinations_record(best);
     if (record < 0 || left < 1 || best->function->n_variable == 0)
         return CZ_OK;
-    return begin(combinations, combinations->chosen, cz_search_x(best, record), left, options,
-                 error);
+    double *start = cz_arena_numbers(&combinations->arena, (size_t)chosen->n_all);
+    if (start == NULL)
+        return cz_no_memory(error, "a search");
+    cz_subspace_expand(chosen, cz_search_x(best, record), start);
+    return begin(combinations, combinations->chosen, start, left, options, error);
 }
 
 CzStatus cz_combinations(CzEvaluator *evaluator, const CzOptimiseOptions *options,
@@ -117,7 +121,7 @@ CzStatus cz_combinations(CzEvaluator *evaluator, const CzOptimiseOptions *option
     CZ_TRY(cz_replay_begin(&combinations->replay, evaluator, options->journal, error));
     if (n > 1)
         return search_choices(n, options, combinations, error);
-    return begin(combinations, 0, NULL, options->evaluations, options, error);
+    return begin(combinations, 0, options->start, options->evaluations, options, error);
 }
 
 void cz_combinations_free(CzCombinations *combinations) {

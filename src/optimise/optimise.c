@@ -237,6 +237,8 @@ static void conclude(const CzCombinations *combinations, long limit, CzOutcome *
 static CzStatus fill_outcome(CzEvaluator *evaluator, const CzCombinations *combinations,
                              const CzOptimiseOptions *options, CzOutcome *outcome, CzError *error) {
     const CzSubspace *chosen = &combinations->subspace[combinations->chosen];
+    if (options->start != NULL)
+        memcpy(outcome->start, options->start, (size_t)outcome->n_variable * sizeof(double));
     copy_history(combinations, outcome);
     CZ_TRY(confirm(evaluator, chosen, outcome, error));
     if (cz_evaluator_is_fit(evaluator))

@@ -6,6 +6,7 @@ set(CZ_SOURCES_optimise
     nlopt_adapter.c
     optimise.c
     outcome.c
+    pareto.c
     replay.c
     sample.c
     search.c

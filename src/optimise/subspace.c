@@ -71,7 +71,7 @@ bool cz_subspace_create(CzReplay *replay, int combination, const double *start, 
             continue;
         min[n] = info->min;
         max[n] = info->max;
-        first[n] = start != NULL ? start[n] : info->start;
+        first[n] = start != NULL ? start[i] : info->start;
         step[n] = info->increment;
         number[n++] = i;
     }

@@ -21,9 +21,9 @@ typedef struct CzSubspace {
     CzSearch search;     /* over them, begun by the caller */
 } CzSubspace;
 
-/* Fills a subspace; `start` NULL begins at the file's own values, else at these numbers
- * (n_variable). Memory comes from the arena, also the scratch memory of evaluations. False without
- * memory. */
+/* Fills a subspace; `start` NULL begins at the file's own values, else at the numbers of this whole
+ * design (n_all). Memory comes from the arena, also the scratch memory of evaluations. False
+ * without memory. */
 bool cz_subspace_create(CzReplay *replay, int combination, const double *start, CzArena *arena,
                         CzSubspace *subspace);
 

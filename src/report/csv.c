@@ -374,3 +374,37 @@ void cz_csv_write_samples(const CzReport *report, FILE *stream) {
         if (sampling->sample[k].state != CZ_SAMPLE_NOT_RUN)
             put_sample(&table, sampling, k);
 }
+
+void cz_csv_write_pareto(const CzReport *report, FILE *stream) {
+    const CzPareto *pareto = report->pareto;
+    static const CzResult *const columns[] = {
+        CZ_RESULT_AT(FRONT_POINT, bound),        CZ_RESULT_AT(FRONT_POINT, state),
+        CZ_RESULT_AT(FRONT_POINT, dominated_by), CZ_RESULT_AT(FRONT_POINT, verdict),
+        CZ_RESULT_AT(FRONT_POINT, violation),    CZ_RESULT_AT(FRONT_POINT, evaluations),
+        CZ_RESULT_AT(FRONT_POINT, why)};
+    enum { n_column = sizeof columns / sizeof *columns };
+    CzResultContext context = {.report = report};
+    Table table = table_of(cz_report_options_of(report), stream);
+    for (int k = 0; k < 2; k++)
+        put_text(&table, pareto->objective[k].name);
+    put_keys(&table, n_column, columns);
+    for (int k = 0; k < pareto->n_variable; k++)
+        put_text(&table, cz_evaluator_variable(pareto->evaluator, k)->name);
+    end_row(&table);
+    for (int i = 0; i < pareto->n_point; i++) {
+        const CzParetoPoint *point = &pareto->point[i];
+        for (int k = 0; k < 2; k++)
+            put_exact(&table, point->value[k]);
+        for (int k = 0; k < n_column; k++)
+            if (columns[k] == CZ_RESULT_AT(FRONT_POINT, verdict)) /* in full, as for a sweep */
+                put_text(&table, point->x != NULL ? cz_verdict_text(point->verdict) : NULL);
+            else if (columns[k] == CZ_RESULT_AT(FRONT_POINT, dominated_by) &&
+                     point->dominated_by < 0)
+                put_text(&table, NULL);
+            else
+                put_result(&table, columns[k], &context, point);
+        for (int k = 0; k < pareto->n_variable; k++)
+            put_exact(&table, point->x != NULL ? point->x[k] : NAN);
+        end_row(&table);
+    }
+}

@@ -135,6 +135,11 @@ static void add_margin(double *smallest, double *largest, double share) {
     *largest += *largest == 0 ? 0 : share * range;
 }
 
+/* Whether a series has marks for single points. */
+static bool is_marked(const CzSeries *series) {
+    return series->form >= CZ_SERIES_DOTS;
+}
+
 static Frame frame_of(const CzPlot *plot) {
     Frame frame = {INFINITY,
                    -INFINITY,
@@ -151,7 +156,10 @@ static Frame frame_of(const CzPlot *plot) {
         widen(plot->limit[i].at, &frame.y_min, &frame.y_max);
     if (plot->from_zero)
         widen(0, &frame.y_min, &frame.y_max);
-    add_margin(&frame.x_min, &frame.x_max, 0);
+    bool has_marks = false;
+    for (int i = 0; i < plot->n_series; i++)
+        has_marks |= is_marked(&plot->series[i]);
+    add_margin(&frame.x_min, &frame.x_max, has_marks ? 0.05 : 0);
     add_margin(&frame.y_min, &frame.y_max, 0.05);
     return frame;
 }
@@ -281,6 +289,35 @@ static void write_curve(const Frame *frame, const CzSeries *series, CzMarkup *ma
         cz_markup_write(markup, "'/>");
 }
 
+static void write_mark(CzMarkup *markup, const CzSeries *series, double x, double y) {
+    const char *colour = cz_plot_colour(series->colour);
+    if (series->form == CZ_SERIES_CROSSES)
+        cz_markup_write(markup, "<path d='M%.1f %.1fl7 7m0-7l-7 7' stroke='%s' stroke-width='2'/>",
+                        x - 3.5, y - 3.5, colour);
+    else
+        cz_markup_write(markup,
+                        "<circle cx='%.1f' cy='%.1f' r='4' stroke='%s' stroke-width='2' "
+                        "fill='%s'/>",
+                        x, y, colour, series->form == CZ_SERIES_DOTS ? colour : "none");
+}
+
+static void write_marks(const CzPlot *plot, const Frame *frame, CzMarkup *markup) {
+    for (int i = 0; i < plot->n_series; i++) {
+        const CzSeries *series = &plot->series[i];
+        for (int k = 0; is_marked(series) && k < series->n; k++) {
+            if (!is_point(series, k))
+                continue;
+            const double x = paper_x(frame, series->x[k]), y = paper_y(frame, series->y[k]);
+            char text[16];
+            write_mark(markup, series, x, y);
+            if (series->number == NULL || series->number[k] == 0)
+                continue;
+            snprintf(text, sizeof text, "%d", series->number[k]);
+            cz_svg_text(markup, x + 6, y - 5, "start", text);
+        }
+    }
+}
+
 static void write_bands(const CzPlot *plot, const Frame *frame, CzMarkup *markup) {
     for (int i = 0; i < plot->n_band; i++) {
         const double from = paper_x(frame, fmax(plot->band[i].from, frame->x_min));
@@ -305,8 +342,10 @@ static void write_limits(const CzPlot *plot, const Frame *frame, CzMarkup *marku
 static void write_curves(const CzPlot *plot, const Frame *frame, CzMarkup *markup) {
     cz_markup_write(markup, "<g transform='scale(.1)' stroke-width='14'>");
     for (int i = 0; i < plot->n_series; i++)
-        write_curve(frame, &plot->series[i], markup);
+        if (!is_marked(&plot->series[i]))
+            write_curve(frame, &plot->series[i], markup);
     cz_markup_write(markup, "</g>");
+    write_marks(plot, frame, markup);
 }
 
 /* ---- legend ---- */
@@ -341,6 +380,12 @@ static void put_line(Legend *legend, const char *name, const char *colour, const
     cz_markup_write(legend->markup, "/>");
 }
 
+static void put_mark(Legend *legend, const CzSeries *series) {
+    const double x = put_entry(legend, series->name);
+    if (legend->markup != NULL)
+        write_mark(legend->markup, series, x + SAMPLE_WIDTH / 2 - 2, legend->y - 4);
+}
+
 static void put_limit(Legend *legend, const CzPlotLimit *limit) {
     char name[CZ_LABEL_ROOM + 8];
     snprintf(name, sizeof name, "limit: %s", limit->name);
@@ -367,7 +412,9 @@ static bool is_named_before(const CzPlot *plot, int band) {
 static double write_legend(const CzPlot *plot, double top, CzMarkup *markup) {
     Legend legend = {markup, LEFT, top + 12};
     for (int i = 0; i < plot->n_series; i++)
-        if (plot->series[i].name != NULL)
+        if (plot->series[i].name != NULL && is_marked(&plot->series[i]))
+            put_mark(&legend, &plot->series[i]);
+        else if (plot->series[i].name != NULL)
             put_line(&legend, plot->series[i].name, cz_plot_colour(plot->series[i].colour),
                      cz_plot_dash(plot->series[i].dash));
     for (int i = 0; i < plot->n_limit; i++)

@@ -17,8 +17,11 @@ enum {
 
 typedef enum CzSeriesForm {
     CZ_SERIES_CURVE,
-    CZ_SERIES_AREA,  /* filled down to its first point's y, such as the bars of a histogram */
-    CZ_SERIES_POINTS /* dots */
+    CZ_SERIES_AREA,   /* filled down to its first point's y, such as the bars of a histogram */
+    CZ_SERIES_POINTS, /* small dots */
+    CZ_SERIES_DOTS,   /* marks for single points, which may have numbers: dots, rings, crosses */
+    CZ_SERIES_RINGS,
+    CZ_SERIES_CROSSES
 } CzSeriesForm;
 
 /* One curve. Texts and numbers are borrowed; a point with a number that is not finite is a gap. */
@@ -30,7 +33,8 @@ typedef struct CzSeries {
     const double *x, *y; /* (n) */
     int colour;          /* index, repeated beyond CZ_PLOT_N_COLOUR, or CZ_PLOT_QUIET */
     CzSeriesForm form;
-    int dash; /* 0 solid, 1 dashed, 2 dotted, 3 dash-dotted */
+    int dash;          /* 0 solid, 1 dashed, 2 dotted, 3 dash-dotted */
+    const int *number; /* beside each mark, 0 for none; NULL for none at all (n) */
 } CzSeries;
 
 /* A limit. */

@@ -1,5 +1,5 @@
 /* The files of a result folder: summary and checks at the top, histories per scenario; of a sweep,
- * its points; of a sampling, its samples. */
+ * its points; of a sampling, its samples; of a front, its points and their designs. */
 #include "crushzone/report.h"
 
 #include "base/error.h"
@@ -11,6 +11,7 @@
 #include "report/overlay.h"
 #include "report/page.h"
 #include "report/page_sample.h"
+#include "report/page_pareto.h"
 #include "report/page_sweep.h"
 #include "report/runs.h"
 #include "report/sample_replay.h"
@@ -30,6 +31,7 @@ typedef struct Results {
     const char *folder;        /* final path */
     const CzSource *input;     /* the file that is copied */
     int sample;                /* the sample that is written */
+    int point;                 /* of a front, whose design is written */
 } Results;
 
 typedef enum Content {
@@ -51,7 +53,12 @@ typedef enum Content {
     SAMPLE,
     SAMPLES,
     SAMPLE_REPORT,
-    REPLAY
+    REPLAY,
+    PARETO,
+    PARETO_POINTS,
+    PARETO_REPORT,
+    FRONT,
+    POINT
 } Content;
 
 typedef struct File {
@@ -116,6 +123,21 @@ static CzStatus write_journal(const CzReport *report, FILE *stream, CzError *err
     return is_read ? CZ_OK : cz_fail(error, CZ_STATUS_OUTPUT, "%.300s cannot be read", path);
 }
 
+/* The design of a point of a front, as changes to the file. */
+static CzStatus write_point(const Results *results, FILE *stream, CzError *error) {
+    const CzPareto *pareto = results->report->pareto;
+    const CzParetoPoint *point = &pareto->point[results->point];
+    CzOutcome outcome = {.n_variable = pareto->n_variable, .best = point->x};
+    CzReport report = *results->report;
+    report.outcome = &outcome;
+    report.evaluator = pareto->evaluator;
+    fprintf(stream, "# Point %d of %d: %s. Verdict of its checks: %s.\n", results->point + 1,
+            pareto->n_point,
+            point->violation <= 0 ? cz_pareto_state_text(point->state) : "IT VIOLATES A CONSTRAINT",
+            cz_verdict_text(point->verdict));
+    return cz_overlay_write_design(&report, results->folder, stream, error);
+}
+
 static CzStatus write_report(const Results *results, FILE *stream, CzError *error) {
     const bool is_search = results->report->outcome != NULL && results->is_top;
     CzReport report = is_search ? *results->report : results->run;
@@ -137,6 +159,7 @@ static CzStatus write_content(const Results *results, Content content, FILE *str
     case OUTCOME:
     case SWEEP:
     case SAMPLE:
+    case PARETO:
         return cz_report_write_json(report, stream, error);
     case OVERLAY:
         return cz_overlay_write(report, results->folder, stream, error);
@@ -156,6 +179,16 @@ static CzStatus write_content(const Results *results, Content content, FILE *str
         break;
     case SAMPLES:
         cz_csv_write_samples(report, stream);
+        break;
+    case PARETO_REPORT:
+        return cz_page_write_pareto(report->pareto, cz_problem_title(report->problem), stream,
+                                    error);
+    case FRONT:
+        return cz_report_write_front(report->pareto, stream, error);
+    case POINT:
+        return write_point(results, stream, error);
+    case PARETO_POINTS:
+        cz_csv_write_pareto(report, stream);
         break;
     case SWEEP_POINTS:
         cz_csv_write_sweep(report, stream);
@@ -266,6 +299,23 @@ static CzStatus write_sampling(CzFolder *folder, Results *results, CzError *erro
     return CZ_OK;
 }
 
+static CzStatus write_front(CzFolder *folder, Results *results, CzError *error) {
+    static const File files[] = {{"pareto.json", PARETO},
+                                 {"pareto.csv", PARETO_POINTS},
+                                 {"report.html", PARETO_REPORT},
+                                 {"front.svg", FRONT}};
+    const CzPareto *pareto = results->report->pareto;
+    CZ_TRY(write_files(folder, 4, files, results, error));
+    for (int i = 0; i < pareto->n_point; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "point-%02d.yaml", i + 1);
+        results->point = i;
+        if (pareto->point[i].x != NULL)
+            CZ_TRY(write_file(folder, name, POINT, results, error));
+    }
+    return CZ_OK;
+}
+
 static CzStatus write_all(CzFolder *folder, Results *results, CzError *error) {
     static const File files[] = {{"summary.json", SUMMARY},   {"checks.csv", CHECKS},
                                  {"resolved.yaml", RESOLVED}, {"run.log", RUN_LOG},
@@ -277,6 +327,8 @@ static CzStatus write_all(CzFolder *folder, Results *results, CzError *error) {
         return write_files(folder, 3, of_sweep, results, error);
     if (results->report->kind == CZ_REPORT_SAMPLE)
         return write_sampling(folder, results, error);
+    if (results->report->kind == CZ_REPORT_PARETO)
+        return write_front(folder, results, error);
     CZ_TRY(write_files(folder, results->report->outcome != NULL ? 7 : 4, files, results, error));
     if (results->report->outcome != NULL && cz_report_options_of(results->report)->journal != NULL)
         CZ_TRY(write_file(folder, "history.jsonl", JOURNAL, results, error));

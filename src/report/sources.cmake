@@ -34,9 +34,11 @@ set(CZ_SOURCES_report
     page_inputs.c
     page_outcome.c
     page_sample.c
+    page_pareto.c
     page_scene.c
     page_sweep.c
     page_trains.c
+    pareto_table.c
     plot.c
     result_folder.c
     result_list.c

@@ -24,6 +24,8 @@ sweep() { "$C" sweep "$cars" $short --vary trains.A.speed_km_h=10:50:2 --json >s
 check "the document of sweep follows its schema" sweep
 sample() { printf "uncertainty: {parameters: [{path: trains.A.speed_km_h, tolerance_percent: 5}]}\n" | sed "1i extends: $cars" >sample.yaml; "$C" sample sample.yaml -n 3 --json >sample.json 2>/dev/null; follows sample sample.json; }
 check "the document of sample follows its schema" sample
+pareto() { "$C" pareto "$SOURCE/problems/length-or-force.yaml" --evaluations 20 -n 3 -q --minimise margin --minimise design.installed_length_mm -o front --json >pareto.json 2>/dev/null; follows pareto pareto.json front/pareto.json; }
+check "the document of pareto follows its schema" pareto
 explain() { "$C" explain "$climbs" --json >explain.json 2>/dev/null; follows explanation explain.json; }
 check "the document of explain follows its schema" explain
 verify() { "$C" verify "$SOURCE/problems/first-collision.yaml" $short --json >verify.json 2>/dev/null; follows verification verify.json; }

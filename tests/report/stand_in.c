@@ -6,6 +6,7 @@
 #include "problem/problem.h"
 #include "report/page.h"
 #include "report/page_sample.h"
+#include "report/page_pareto.h"
 #include "report/page_sweep.h"
 
 #include <math.h>
@@ -156,6 +157,26 @@ CzStatus cz_page_write_run(const CzReport *report, int scenario, bool is_top, FI
     fprintf(stream, "report of %d%s\n", scenario, is_top ? ", top" : "");
     return CZ_OK;
 }
+const char *cz_pareto_state_text(CzParetoState state) {
+    return state == CZ_PARETO_VERIFIED ? "verified" : "infeasible";
+}
+
+CzStatus cz_page_write_pareto(const CzPareto *pareto, const char *title, FILE *stream,
+                              CzError *error) {
+    (void)pareto;
+    (void)title;
+    (void)error;
+    fputs("report of a front\n", stream);
+    return CZ_OK;
+}
+
+CzStatus cz_report_write_front(const CzPareto *pareto, FILE *stream, CzError *error) {
+    (void)pareto;
+    (void)error;
+    fputs("figure of a front\n", stream);
+    return CZ_OK;
+}
+
 CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error) {
     (void)sweep;
     (void)error;

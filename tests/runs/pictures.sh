@@ -10,8 +10,8 @@ check "the pictures are drawn" "$SOURCE/scripts/write-pictures" "$PROGRAM" drawn
 same_structure() {
     structure_of "$SOURCE/docs/$1" >committed && structure_of "drawn/$1" >now && diff committed now
 }
-has_curve() { # a picture without its curves would have axes; it needs at least $2 paths or rectangles
-    [ "$(grep -oE '<(path|rect)' "drawn/$1" | wc -l)" -ge "$2" ]
+has_curve() { # a picture without its curves would have axes; it needs at least $2 paths, rectangles or marks
+    [ "$(grep -oE '<(path|rect|circle)' "drawn/$1" | wc -l)" -ge "$2" ]
 }
 for picture in "$SOURCE"/docs/picture-*.svg; do
     name=$(basename "$picture")

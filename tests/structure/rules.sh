@@ -19,6 +19,7 @@ include_arrows() {
                     public["status"] = public["names"] = "base"
                     public["channel"] = "problem"
                     public["benchmark"] = public["sample"] = public["sweep"] = public["explain"] = public["verify"] = "evaluate"
+                    public["pareto"] = "optimise"
                     public["crushzone"] = "report"
                 }
                 /^[ \t]*#[ \t]*include[ \t]*"/ {

@@ -157,8 +157,19 @@ static const Rule rules[] = {
 #undef MAX
 #undef MIN
 
+/* The speed by which a scene is of a class. A scene that is like another one at about its speed,
+ * such as a sample, is judged by its rules: a tolerance of the speed does not make a service
+ * collision a crash. The tenth is ours. */
+static double class_speed(const CzScene *scene) {
+    const CzScene *first = scene;
+    while (first->like != NULL)
+        first = first->like;
+    const double change = fabs(scene->closing_speed - first->closing_speed);
+    return change <= 0.1 * first->closing_speed ? first->closing_speed : scene->closing_speed;
+}
+
 static bool rule_holds_in(Speeds speeds, const CzScene *scene) {
-    const double speed = scene->closing_speed * (1 - 1e-9);
+    const double speed = class_speed(scene) * (1 - 1e-9);
     if (scene->is_overload || speeds == OVERLOAD)
         return scene->is_overload && speeds == OVERLOAD;
     switch (speeds) {

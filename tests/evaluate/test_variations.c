@@ -229,6 +229,39 @@ static void a_variation_changes_no_rule_of_the_design(void **state) {
     assert_true(margin_of_tube("  - {name: faster, speed_km_h: 30, duration_s: 0.4}\n") < alone);
 }
 
+static bool has_check(const CzEvaluation *evaluation, const char *name, const char *scenario) {
+    for (int i = 0; i < evaluation->n_check; i++)
+        if (strcmp(evaluation->check[i].name, name) == 0 &&
+            strcmp(evaluation->check[i].scenario, scenario) == 0)
+            return true;
+    return false;
+}
+
+/* 15 km/h is the service speed; a collision of 15.3 km/h that is like it is no crash, one of 25
+ * km/h is. */
+static void a_tolerance_of_the_speed_keeps_the_rules_of_a_scenario(void **state) {
+    (void)state;
+    CzProblem *problem =
+        read_texts(base,
+                   "  - {name: service, speed_km_h: 15, duration_s: 0.4}\n"
+                   "  - {name: sample, like: service, reserves: false, changes: [{path: "
+                   "scenario.speed_km_h, factor: 1.02}]}\n"
+                   "  - {name: fast, like: service, reserves: false, changes: [{path: "
+                   "scenario.speed_km_h, value: 25}]}\n",
+                   "");
+    CzEvaluator *evaluator = build(problem);
+    CzEvaluation evaluation;
+    CzError error = {0};
+    static const char of_crashes[] = "share of collision energy absorbed";
+    assert_int_equal(cz_evaluate(evaluator, 1, NULL, false, &evaluation, &error), CZ_OK);
+    assert_false(has_check(&evaluation, of_crashes, "service"));
+    assert_false(has_check(&evaluation, of_crashes, "sample"));
+    assert_true(has_check(&evaluation, of_crashes, "fast"));
+    cz_evaluation_free(&evaluation);
+    cz_evaluator_free(evaluator);
+    cz_problem_free(problem);
+}
+
 /* A case in memory is the scenario of a file. */
 static void a_case_is_a_scenario(void **state) {
     (void)state;
@@ -301,6 +334,7 @@ int main(void) {
         cmocka_unit_test(a_copy_has_its_own_vehicles),
         cmocka_unit_test(changes_act_on_designs),
         cmocka_unit_test(a_variation_changes_no_rule_of_the_design),
+        cmocka_unit_test(a_tolerance_of_the_speed_keeps_the_rules_of_a_scenario),
         cmocka_unit_test(a_case_is_a_scenario),
         cmocka_unit_test(reserves_are_left_out),
     };

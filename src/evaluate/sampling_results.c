@@ -133,11 +133,13 @@ void cz_sampling_keep_bare(CzSampling *sampling, const CzSampleBench *bench,
 
 void cz_sampling_keep_nominal(CzSampling *sampling) {
     const CzEvaluation *evaluation = &sampling->nominal;
+    static const char design[] = "design"; /* its rules are those of each sample */
     for (int j = 0; j < sampling->parts->n_scenario; j++) {
         const char *name =
             cz_problem_scenario_name(sampling->problem, sampling->parts->scenario[j]);
         for (int i = 0; i < evaluation->n_check; i++) {
-            const int check = check_of(sampling, evaluation, i, j, name);
+            const bool is_of_design = strcmp(evaluation->check[i].scenario, design) == 0;
+            const int check = check_of(sampling, evaluation, i, j, is_of_design ? design : name);
             if (check >= 0)
                 sampling->check[check].nominal = evaluation->check[i].margin;
         }

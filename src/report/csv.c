@@ -6,6 +6,7 @@
 #include "report/options.h"
 #include "report/results.h"
 #include "report/sample_rows.h"
+#include "report/sample_values.h"
 #include "report/units.h"
 
 #include <math.h>
@@ -337,7 +338,6 @@ static void put_margin(Table *table, const CzSampledCheck *check, double margin,
 
 static void put_sample(Table *table, const CzSampling *sampling, int k) {
     const CzSample *sample = &sampling->sample[k];
-    const size_t row = (size_t)k * (size_t)sampling->n_check;
     const CzSampledCheck *check = sample->check >= 0 ? &sampling->check[sample->check] : NULL;
     put_exact(table, k + 1);
     put_text(table, cz_sample_state_text(sample->state));
@@ -347,10 +347,10 @@ static void put_sample(Table *table, const CzSampling *sampling, int k) {
     put_text(table, check != NULL ? check->name : NULL);
     put_text(table, check != NULL ? check->scenario : NULL);
     for (int d = 0; d < sampling->n_draw; d++)
-        put_full(table, sampling->value[(size_t)k * (size_t)sampling->n_draw + (size_t)d]);
+        put_full(table, cz_sample_value(sampling, k, d));
     for (int c = 0; c < sampling->n_check; c++)
-        put_margin(table, &sampling->check[c], sampling->margin[row + (size_t)c],
-                   sampling->verdict[row + (size_t)c]);
+        put_margin(table, &sampling->check[c], cz_sample_margin(sampling, k, c),
+                   cz_sample_verdict(sampling, k, c));
     put_text(table, sample->message);
     end_row(table);
 }

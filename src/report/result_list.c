@@ -5,6 +5,7 @@
 #include "problem/problem.h"
 #include "report/compare.h"
 #include "report/runs.h"
+#include "report/sample_values.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -189,10 +190,6 @@ static double margin_change(const CzResultContext *context, const double *increm
 
 static const char *effect_word(CzDrawEffect effect) {
     return effect == CZ_DRAW_VALUE ? "value" : effect == CZ_DRAW_FACTOR ? "factor" : "add";
-}
-
-static double sampled_value(const CzSampling *sampling, int sample, int draw) {
-    return sampling->value[(size_t)sample * (size_t)sampling->n_draw + (size_t)draw];
 }
 
 static const CzSample *nth_failed(const CzSampling *sampling, int n) {

@@ -3,7 +3,7 @@
 
 #include "report/figure.h"
 #include "report/plot.h"
-#include "report/sample_table.h"
+#include "report/sample_values.h"
 
 #include <math.h>
 #include <stdlib.h>

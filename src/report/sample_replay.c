@@ -5,8 +5,9 @@
 #include "base/number.h"
 #include "evaluate/sampling.h"
 #include "report/figure.h"
+#include "report/options.h"
 #include "report/overlay.h"
-#include "report/sample_table.h"
+#include "report/sample_values.h"
 
 #include <string.h>
 
@@ -34,6 +35,31 @@ static void write_reason(const CzSampling *sampling, int sample, FILE *stream) {
     }
 }
 
+bool cz_replay_is_settings(const CzSampling *sampling) {
+    for (int d = 0; d < sampling->n_draw; d++)
+        for (int i = 0; i < sampling->draw[d].n_path; i++) {
+            const char *path = sampling->draw[d].path[i];
+            if (sampling->draw[d].effect != CZ_DRAW_VALUE || strstr(path, ".vehicles.") != NULL ||
+                strncmp(path, "scenario.", 9) == 0 || strncmp(path, "parts.*", 7) == 0)
+                return false;
+        }
+    return true;
+}
+
+void cz_replay_write_command(const CzReport *report, int sample, FILE *stream) {
+    const CzSampling *sampling = report->sampling;
+    const CzReportOptions *options = cz_report_options_of(report);
+    fprintf(stream, "crushzone check %s", cz_problem_file(sampling->problem));
+    for (int i = 0; i < options->n_set; i++)
+        fprintf(stream, " --set '%s'", options->set[i]);
+    for (int d = 0; d < sampling->n_draw; d++)
+        for (int i = 0; i < sampling->draw[d].n_path; i++) {
+            char number[CZ_NUMBER_TEXT];
+            fprintf(stream, " --set '%s=%s'", sampling->draw[d].path[i],
+                    cz_number_print(number, cz_sample_value(sampling, sample, d)));
+        }
+}
+
 static void write_changes(const CzSampling *sampling, int sample, FILE *stream) {
     static const char *const keys[] = {
         [CZ_DRAW_VALUE] = "value", [CZ_DRAW_FACTOR] = "factor", [CZ_DRAW_ADD] = "add"};
@@ -52,6 +78,11 @@ void cz_replay_write(const CzReport *report, int sample, const char *folder, FIL
     const CzSamplingParts *parts = sampling->parts;
     const CzProblem *problem = sampling->problem;
     write_reason(sampling, sample, stream);
+    if (cz_replay_is_settings(sampling)) {
+        fputs("# With the reserves of the design: ", stream);
+        cz_replay_write_command(report, sample, stream);
+        fputc('\n', stream);
+    }
     cz_overlay_write_base(report, problem, folder, "../", stream);
     fputs("scenarios:\n", stream);
     if (cz_problem_n_scenario(problem) == 1) /* a file without scenarios has this one unwritten */

@@ -15,4 +15,11 @@ void cz_replay_name(int sample, char name[CZ_REPLAY_ROOM]);
  * of the result folder. */
 void cz_replay_write(const CzReport *report, int sample, const char *folder, FILE *stream);
 
+/* Whether settings alone make the values of a sample: each of its numbers is a value, and none is
+ * of a vehicle, of which copies have their own in a sample, or of a scenario. */
+bool cz_replay_is_settings(const CzSampling *sampling);
+
+/* Writes the command that runs such a sample, without an end of line. */
+void cz_replay_write_command(const CzReport *report, int sample, FILE *stream);
+
 #endif

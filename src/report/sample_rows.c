@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/number.h"
 #include "crushzone/report.h"
+#include "report/sample_values.h"
 
 #include <errno.h>
 #include <math.h>
@@ -200,8 +201,7 @@ static CzStatus read_row(Rows *rows, CzSampling *sampling) {
         return fail(rows, "it is not a row of a sample");
     for (int d = 0; d < sampling->n_draw; d++) {
         double value;
-        if (!cut_number(rows, &value) ||
-            !(value == sampling->value[(size_t)k * (size_t)sampling->n_draw + (size_t)d]))
+        if (!cut_number(rows, &value) || !(value == cz_sample_value(sampling, k, d)))
             return fail(rows, "its values are those of another sample");
     }
     const size_t row = (size_t)k * (size_t)sampling->n_check;

@@ -2,6 +2,7 @@
 #include "report/sample_table.h"
 
 #include "report/figure.h"
+#include "report/sample_replay.h"
 #include "report/tables.h"
 
 #include <math.h>
@@ -30,14 +31,6 @@ int *cz_sample_order(const CzSampling *sampling) {
         order[at] = i;
     }
     return order;
-}
-
-double cz_sample_margin(const CzSampling *sampling, int sample, int check) {
-    return sampling->margin[(size_t)sample * (size_t)sampling->n_check + (size_t)check];
-}
-
-double cz_sample_value(const CzSampling *sampling, int sample, int draw) {
-    return sampling->value[(size_t)sample * (size_t)sampling->n_draw + (size_t)draw];
 }
 
 /* ---- sentences ---- */
@@ -113,24 +106,33 @@ static void put_check(CzReportTable *table, const CzSampling *sampling,
                             cz_figure_fixed(text, 2, check->correlation[check->strongest]));
 }
 
-/* Whether a check says something: it has a margin, or fails. */
-static bool is_shown(const CzSampledCheck *check) {
+/* Whether a check has results: a margin, or a failure. */
+static bool has_results(const CzSampledCheck *check) {
     return check->n_fail > 0 || !isnan(check->margin.quantile[1]);
 }
 
+/* Whether one of the first n checks in the order has the name of this one and results. */
+static bool is_named_before(const CzSampling *sampling, const int *order, int n, const char *name) {
+    for (int i = 0; i < n; i++)
+        if (has_results(&sampling->check[order[i]]) &&
+            strcmp(sampling->check[order[i]].name, name) == 0)
+            return true;
+    return false;
+}
+
 int cz_sample_begin_checks(CzReportTable *table, const CzSampling *sampling, const int *order,
-                           int most) {
-    int n = 0, n_more = 0;
+                           bool each_name_once) {
+    int n_more = 0;
     cz_table_begin(table, "check;scenario;>nominal;>bare;>5 %;>50 %;>95 %;>least;>failing;>worst;"
                           "strongest draw (rank correlation)");
     for (int i = 0; i < sampling->n_check; i++) {
         const CzSampledCheck *check = &sampling->check[order[i]];
-        if (!is_shown(check))
+        if (!has_results(check))
             continue;
-        if (n < most || check->n_fail > 0)
-            put_check(table, sampling, check), n++;
-        else
+        if (each_name_once && is_named_before(sampling, order, i, check->name))
             n_more++;
+        else
+            put_check(table, sampling, check);
     }
     return n_more;
 }
@@ -160,7 +162,7 @@ void cz_sample_begin_draws(CzReportTable *table, const CzSampling *sampling) {
 
 /* ---- the terminal ---- */
 
-enum { MOST_CHECKS = 12, MOST_DRAWS = 24, MOST_FAILURES = 8 };
+enum { MOST_DRAWS = 24, MOST_FAILURES = 3 };
 
 static void write_failures(const CzSampling *sampling, CzTerminal *terminal) {
     for (int k = 0, n = 0; k < sampling->n_sample && n < MOST_FAILURES; k++) {
@@ -183,13 +185,37 @@ static void write_checks(const CzSampling *sampling, CzTerminal *terminal) {
         terminal->failed = true;
         return;
     }
-    const int n_more = cz_sample_begin_checks(&table, sampling, order, MOST_CHECKS);
+    const int n_more = cz_sample_begin_checks(&table, sampling, order, true);
     cz_table_write_text(&table, terminal);
     if (n_more > 0)
         cz_terminal_say(terminal, CZ_STYLE_PLAIN,
-                        "%d more checks of a scenario pass in all samples, by larger margins.\n",
+                        "%d more checks of other scenarios, each better than the one of its name "
+                        "above.\n",
                         n_more);
     free(order);
+}
+
+/* The sample with the smallest margin, and the command that runs it where settings can. */
+static void write_worst(const CzReport *report, CzTerminal *terminal) {
+    const CzSampling *sampling = report->sampling;
+    const int worst = sampling->smallest.worst;
+    if (worst < 0)
+        return;
+    const CzSample *sample = &sampling->sample[worst];
+    char text[CZ_FIGURE_ROOM];
+    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "Worst: sample %d, %s", worst + 1,
+                    sample->state != CZ_SAMPLE_DONE ? cz_sample_state_text(sample->state)
+                    : isinf(sample->margin)         ? "beyond model validity"
+                                                    : cz_figure_margin(text, sample->margin));
+    if (sample->check >= 0)
+        cz_terminal_say(terminal, CZ_STYLE_PLAIN, ": %s in %s", sampling->check[sample->check].name,
+                        sampling->check[sample->check].scenario);
+    fputs(".\n", terminal->stream);
+    if (cz_replay_is_settings(sampling) && sample->state != CZ_SAMPLE_INVALID) {
+        fputs("With the reserves of the design: ", terminal->stream);
+        cz_replay_write_command(report, worst, terminal->stream);
+        fputc('\n', terminal->stream);
+    }
 }
 
 static void write_judgement(const CzSampling *sampling, CzTerminal *terminal) {
@@ -219,6 +245,7 @@ void cz_sample_write_table(const CzReport *report, CzTerminal *terminal) {
         write_failures(sampling, terminal);
         cz_sample_say_share(sampling, text);
         cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s.\n", text);
+        write_worst(report, terminal);
     }
     write_judgement(sampling, terminal);
     if (sampling->is_interrupted)

@@ -11,9 +11,6 @@ enum { CZ_SAMPLE_SENTENCE = 300 };
  * freed (n_check), NULL without memory. */
 int *cz_sample_order(const CzSampling *sampling);
 
-double cz_sample_margin(const CzSampling *sampling, int sample, int check);
-double cz_sample_value(const CzSampling *sampling, int sample, int draw);
-
 /* Sentences without their full stop: how many samples pass, and how they were drawn. */
 void cz_sample_say_share(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]);
 void cz_sample_say_how(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]);
@@ -21,10 +18,9 @@ void cz_sample_say_how(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]
 /* Word and style of a judgement. */
 const char *cz_sample_word(CzVerdict verdict, CzStyle *style);
 
-/* The table of all failing checks and of others up to `most`; returns the number of those left out.
- */
+/* The table of checks, or of the worst one of each name; returns the number of those left out. */
 int cz_sample_begin_checks(CzReportTable *table, const CzSampling *sampling, const int *order,
-                           int most);
+                           bool each_name_once);
 void cz_sample_begin_draws(CzReportTable *table, const CzSampling *sampling);
 
 #endif

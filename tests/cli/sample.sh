@@ -73,6 +73,14 @@ again() {
     done
 }
 check "a worst sample is a problem file that check judges with the same digits" again
+settings() {
+    printf "extends: two.yaml\\nuncertainty:\\n  parameters:\\n    - {path: 'parts.inner-end.coupler.tube.stages[0].force_kN', min: 600, max: 800}\\n    - {path: trains.A.speed_km_h, min: 23, max: 26}\\n" >plain.yaml && exits 1 "$C" sample plain.yaml -n 5 -o plain || return 1
+    command=$(sed -n 's/^With the reserves of the design: crushzone//p' out.txt) margin=$(sed -n 's/^Worst: sample [0-9]*, \(.*\): .*/\1/p' out.txt)
+    [ -n "$command" ] && grep -qF -- "$command" plain/replay/*.yaml && eval "exits 1 \"\$C\" $command" && says out.txt "$margin"
+}
+check "where settings can make a sample, the command with them is printed" settings
+resolved() { exits 0 "$C" run scatter.yaml -q -o resolved && exits 1 "$C" sample resolved/resolved.yaml -q && says out.txt '1 of 12 samples pass'; }
+check "resolved.yaml has the uncertain numbers" resolved
 set_too() { exits 1 "$C" sample scatter.yaml -q --set parts.inner-end.coupler.tube.stages[0].stroke_mm=310 -o set && says "$(ls set/replay/* | head -1)" '"parts.inner-end.coupler.tube.stages[0].stroke_mm": 310' && exits 1 "$C" check "$(ls set/replay/* | head -1)"; }
 check "settings of the command line are in the files of worst samples" set_too
 

@@ -1,6 +1,7 @@
 /* Builds and frees a variant of a problem. */
 #include "evaluate/variant.h"
 #include "base/error.h"
+#include "model/build.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -35,7 +36,7 @@ static CzStatus build(const CzProblem *problem, const CzScene *scene, const char
         return cz_no_memory(error, "the models");
     for (int s = first; s < variant->n_scene; s++)
         if (only == NULL || cz_scene_is(&scene[s], only))
-            CZ_TRY(cz_model_build(problem, s, &variant->model[s], error));
+            CZ_TRY(cz_model_build_beside(problem, s, s, variant->model, &variant->model[s], error));
     return CZ_OK;
 }
 

@@ -1,4 +1,5 @@
 /* Builds the model of one scenario: its cars along +x, parameters and time step. */
+#include "model/build.h"
 #include "base/error.h"
 #include "model/curve_sizes.h"
 #include "model/own_design.h"
@@ -230,10 +231,36 @@ static CzStatus fit_if_possible(CzModel *model, const CzVehicle *vehicles, CzTra
     return status;
 }
 
+/* Models whose track may be used, if it is the same. */
+typedef struct Beside {
+    int n;
+    CzModel *const *model;
+} Beside;
+
+/* Whether a track with its receptances is the one that the model would build. */
+static bool is_same_track(const CzTrackModes *track, const CzModel *model,
+                          const CzVehicle *vehicles, double span) {
+    const CzRoadbed *roadbed = &cz_problem_input(model->problem)->track;
+    const CzTrackOptions options = cz_track_options_default(span);
+    const CzSeats seats = cz_seats(roadbed, options.n_rail);
+    bool is_same = track->span == span && track->nodes == roadbed->nodes_per_bay &&
+                   memcmp(&track->seats, &seats, sizeof seats) == 0;
+    for (int car = 0; car < model->n_car; car++)
+        is_same &= model->car[car].model != CZ_MODEL_FULL ||
+                   is_fitted(track, vehicles[model->car[car].vehicle].bogie.axle_spacing);
+    return is_same;
+}
+
 static CzStatus build_track(CzModel *model, const CzInput *input, const CzVehicle *vehicles,
-                            CzError *error) {
+                            const Beside *beside, CzError *error) {
     const double span = longest_span(model, vehicles);
     if (model->simulation->track == CZ_TRACK_RIGID || span == 0.0)
+        return CZ_OK;
+    for (int i = beside->n - 1; i >= 0 && model->track == NULL; i--)
+        if (beside->model[i] != NULL && beside->model[i]->track != NULL &&
+            is_same_track(beside->model[i]->track, model, vehicles, span))
+            model->track = beside->model[i]->track;
+    if (model->track != NULL)
         return CZ_OK;
     const CzTrackOptions options = cz_track_options_default(span);
     CzTrackModes *modes = NULL;
@@ -280,7 +307,7 @@ static CzStatus look_at_own_design(CzModel *model, const CzVehicle *vehicles, Cz
     return CZ_OK;
 }
 
-static CzStatus build(CzModel *model, int scenario, CzError *error) {
+static CzStatus build(CzModel *model, int scenario, const Beside *beside, CzError *error) {
     const CzInput *input = cz_problem_input(model->problem);
     int n_vehicle;
     const CzVehicle *vehicles = cz_problem_vehicles(model->problem, &n_vehicle);
@@ -288,7 +315,7 @@ static CzStatus build(CzModel *model, int scenario, CzError *error) {
     CZ_TRY(choose_trains(model, input, error));
     CZ_TRY(place_cars(model, input, error));
     CZ_TRY(find_perturbed(model, error));
-    CZ_TRY(build_track(model, input, vehicles, error));
+    CZ_TRY(build_track(model, input, vehicles, beside, error));
     cz_model_size_curves(model, vehicles);
     CzArena scratch = {0};
     const CzStatus status = look_at_own_design(model, vehicles, &scratch, error);
@@ -296,17 +323,23 @@ static CzStatus build(CzModel *model, int scenario, CzError *error) {
     return status;
 }
 
-CzStatus cz_model_build(const CzProblem *problem, int scenario, CzModel **model, CzError *error) {
+CzStatus cz_model_build_beside(const CzProblem *problem, int scenario, int n, CzModel *const *made,
+                               CzModel **model, CzError *error) {
+    const Beside beside = {n, made};
     *model = calloc(1, sizeof **model);
     if (*model == NULL)
         return cz_no_memory(error, "the model");
     (*model)->problem = cz_problem_in_scenario(problem, scenario);
-    const CzStatus status = build(*model, scenario, error);
+    const CzStatus status = build(*model, scenario, &beside, error);
     if (status != CZ_OK) {
         cz_model_free(*model);
         *model = NULL;
     }
     return status;
+}
+
+CzStatus cz_model_build(const CzProblem *problem, int scenario, CzModel **model, CzError *error) {
+    return cz_model_build_beside(problem, scenario, 0, NULL, model, error);
 }
 
 void cz_model_free(CzModel *model) {

@@ -2,6 +2,7 @@
 #include "support/check.h"
 
 #include "evaluate/stand_in.h"
+#include "model/build.h"
 #include "problem/problem.h"
 #include "simulate/batch.h"
 
@@ -36,6 +37,13 @@ CzStatus cz_model_build(const CzProblem *problem, int scenario, CzModel **model,
     *model = calloc(1, sizeof **model);
     **model = (CzModel){.problem = problem, .scenario = scenario};
     return CZ_OK;
+}
+
+CzStatus cz_model_build_beside(const CzProblem *problem, int scenario, int n, CzModel *const *made,
+                               CzModel **model, CzError *error) {
+    (void)n;
+    (void)made;
+    return cz_model_build(problem, scenario, model, error);
 }
 
 void cz_model_free(CzModel *model) {

@@ -175,6 +175,12 @@ typedef void CzAdvance(CzDynamics *dynamics, double step, int first);
 /* All three in turn, in one pass through the memory; the results are the same to the last bit. */
 typedef void CzStep(CzDynamics *dynamics, double step, int first, double time);
 
+/* Sets the states of the tracks of all blocks, one after the other. */
+typedef void CzTrackSet(CzDynamics *dynamics, const double *state);
+
+/* After an evaluation, the rates of these states; adds the track's part of the powers. */
+typedef void CzTrackRate(CzDynamics *dynamics, double *rate);
+
 /* One compiled copy of the kernel. */
 typedef struct CzKernel {
     const char *isa;
@@ -182,6 +188,8 @@ typedef struct CzKernel {
     CzEvaluate *evaluate;
     CzCommit *commit;
     CzStep *step;
+    CzTrackSet *track_set;
+    CzTrackRate *track_rate;
 } CzKernel;
 
 /* The kernel for this processor ("auto" or NULL), or the copy of that name; NULL when the build or
@@ -205,13 +213,10 @@ void cz_dynamics_move(CzDynamics *dynamics, size_t lane, const CzDynamics *from,
 void cz_dynamics_track_energy(const CzDynamics *dynamics, int block, CzRow energy);
 
 /* For a solver that integrates the track's states itself (track.h), on a `modal` or `receptance`
- * track laid for a step of 0: the number of states under a car, 0 without wheels or elastic rails;
- * the states; after an evaluation their rates, and the track's part of the powers.
- */
-size_t cz_dynamics_track_n_state(const CzDynamics *dynamics, size_t lane);
-void cz_dynamics_track_get_state(const CzDynamics *dynamics, size_t lane, double *state);
-void cz_dynamics_track_set_state(CzDynamics *dynamics, size_t lane, const double *state);
-void cz_dynamics_track_rate(CzDynamics *dynamics, size_t lane, double *rate);
+ * track laid for a step of 0: the number of states under the cars of a block, and the states. The
+ * kernel sets them, and finds their rates. */
+size_t cz_dynamics_track_n_state(const CzDynamics *dynamics, int block);
+void cz_dynamics_track_get_state(const CzDynamics *dynamics, int block, double *state);
 
 /* The block of a lane; its place there is lane % CZ_LANE_BLOCK. */
 static inline CzBlock *cz_block_of(const CzDynamics *dynamics, size_t lane) {

@@ -123,45 +123,26 @@ void cz_dynamics_track_energy(const CzDynamics *dynamics, int block, CzRow energ
             energy[i] = energy_under(dynamics, (size_t)block * CZ_LANE_BLOCK + i);
 }
 
-size_t cz_dynamics_track_n_state(const CzDynamics *dynamics, size_t lane) {
-    if (dynamics->receptance != NULL)
-        return cz_receptance_n_state(dynamics->receptance, lane);
+size_t cz_dynamics_track_n_state(const CzDynamics *dynamics, int block) {
     const CzTrackMotion *track = dynamics->track;
-    return track != NULL && track->under[lane].state != NULL ? cz_track_n_state(track->modes) : 0;
+    size_t n = 0;
+    if (dynamics->receptance != NULL)
+        return cz_receptance_n_state(&dynamics->receptance->block[block]);
+    for (size_t i = 0; track != NULL && i < CZ_LANE_BLOCK; ++i)
+        if (track->under[(size_t)block * CZ_LANE_BLOCK + i].state != NULL)
+            n += cz_track_n_state(track->modes);
+    return n;
 }
 
-void cz_dynamics_track_get_state(const CzDynamics *dynamics, size_t lane, double *state) {
-    if (cz_dynamics_track_n_state(dynamics, lane) == 0)
-        return;
+void cz_dynamics_track_get_state(const CzDynamics *dynamics, int block, double *state) {
+    const CzTrackMotion *track = dynamics->track;
     if (dynamics->receptance != NULL)
-        cz_receptance_get_state(dynamics->receptance, lane, state);
-    else
-        cz_track_get_state(dynamics->track, lane, state);
-}
-
-void cz_dynamics_track_set_state(CzDynamics *dynamics, size_t lane, const double *state) {
-    if (cz_dynamics_track_n_state(dynamics, lane) == 0)
-        return;
-    if (dynamics->receptance != NULL)
-        cz_receptance_set_state(dynamics->receptance, lane, state);
-    else
-        cz_track_set_state(dynamics->track, lane, state);
-}
-
-void cz_dynamics_track_rate(CzDynamics *dynamics, size_t lane, double *rate) {
-    CzBlock *block = cz_block_of(dynamics, lane);
-    const size_t i = lane % CZ_LANE_BLOCK;
-    double force[4], rail_rate[4], power = 0.0;
-    if (cz_dynamics_track_n_state(dynamics, lane) == 0)
-        return;
-    for (int axle = 0; axle < 4; ++axle)
-        force[axle] = -block->published.wheel[axle].force[i];
-    if (dynamics->receptance != NULL)
-        cz_receptance_rate(dynamics->receptance, lane, force, rate, rail_rate);
-    else
-        cz_track_rate(dynamics->track, lane, force, rate, rail_rate);
-    for (int axle = 0; axle < 4; ++axle)
-        power += force[axle] * rail_rate[axle];
-    block->power->track[i] += power;
-    block->power->wheel_normal[i] -= power;
+        cz_receptance_get_state(&dynamics->receptance->block[block], state);
+    for (size_t i = 0; track != NULL && i < CZ_LANE_BLOCK; ++i) {
+        const size_t lane = (size_t)block * CZ_LANE_BLOCK + i;
+        if (track->under[lane].state == NULL)
+            continue;
+        cz_track_get_state(track, lane, state);
+        state += cz_track_n_state(track->modes);
+    }
 }

@@ -116,8 +116,8 @@ static void read_states(CzReceptanceBlock *block, size_t i) {
 
 /* Copies the numbers of a track to a lane. */
 static void put_steps(CzReceptanceBlock *block, size_t i, const CzReceptanceSteps *steps) {
-    const bool is_first = block->n[0] + block->n[1] == 0;
-    block->same = is_first || block->same == steps ? steps : NULL;
+    block->same = block->n_under == 0 || block->same == steps ? steps : NULL;
+    block->lane[block->n_under++] = (int)i;
     block->under[i] = steps;
     block->per_spacing[i] = 1.0 / steps->modes->seats.spacing;
     block->corner[i] = steps->flexibility.corner;
@@ -137,6 +137,8 @@ static void put_steps(CzReceptanceBlock *block, size_t i, const CzReceptanceStep
             rows->now_im[i] = mode->now.im;
             rows->past_re[i] = mode->past.re;
             rows->past_im[i] = mode->past.im;
+            rows->lambda_re[i] = steps->receptance->motion[motion].mode[k].lambda.re;
+            rows->lambda_im[i] = steps->receptance->motion[motion].mode[k].lambda.im;
         }
     }
 }
@@ -238,49 +240,14 @@ void cz_receptance_energy(const CzReceptanceMotion *track, int block, CzRow ener
 
 /* ---- for a solver of ordinary differential equations ----------------------------------------- */
 
-size_t cz_receptance_n_state(const CzReceptanceMotion *track, size_t lane) {
-    const CzReceptanceSteps *steps = track->block[lane / CZ_LANE_BLOCK].under[lane % CZ_LANE_BLOCK];
-    return steps == NULL ? 0 : 4 * (size_t)(steps->n[0] + steps->n[1]);
+size_t cz_receptance_n_state(const CzReceptanceBlock *block) {
+    return 4 * (size_t)((block->n[0] + block->n[1]) * block->n_under);
 }
 
-void cz_receptance_get_state(const CzReceptanceMotion *track, size_t lane, double *state) {
-    const CzReceptanceBlock *block = &track->block[lane / CZ_LANE_BLOCK];
-    const size_t i = lane % CZ_LANE_BLOCK;
+void cz_receptance_get_state(const CzReceptanceBlock *block, double *state) {
     for (int bogie = 0; bogie < 2; bogie++)
         for (int motion = 0; motion < CZ_N_PAIR_MOTION; motion++)
-            for (int k = 0; k < 2 * block->under[i]->n[motion]; k++)
-                *state++ = block->state[bogie][motion][k][i];
-}
-
-void cz_receptance_set_state(CzReceptanceMotion *track, size_t lane, const double *state) {
-    CzReceptanceBlock *block = &track->block[lane / CZ_LANE_BLOCK];
-    const size_t i = lane % CZ_LANE_BLOCK;
-    for (int bogie = 0; bogie < 2; bogie++)
-        for (int motion = 0; motion < CZ_N_PAIR_MOTION; motion++)
-            for (int k = 0; k < 2 * block->under[i]->n[motion]; k++)
-                block->state[bogie][motion][k][i] = *state++;
-    read_states(block, i);
-}
-
-void cz_receptance_rate(const CzReceptanceMotion *track, size_t lane, const double force[4],
-                        double *rate, double rail_rate[4]) {
-    const size_t i = lane % CZ_LANE_BLOCK;
-    const CzReceptanceBlock *block = &track->block[lane / CZ_LANE_BLOCK];
-    memset(rail_rate, 0, 4 * sizeof *rail_rate);
-    for (int bogie = 0; bogie < 2; bogie++)
-        for (int motion = 0; motion < CZ_N_PAIR_MOTION; motion++) {
-            const struct CzPairModes *modes = &block->under[i]->receptance->motion[motion];
-            const CzRow *state = block->state[bogie][motion];
-            const double own = force_of(force + 2 * bogie, motion);
-            double deflection = 0.0;
-            for (int k = 0; k < modes->n; k++, rate += 2) {
-                const CzComplex y = {state[2 * k][i], state[2 * k + 1][i]}, g = modes->mode[k].g;
-                const CzComplex change = cz_complex_sum(
-                    cz_complex_product(modes->mode[k].lambda, y), cz_complex_scaled(own, g));
-                rate[0] = change.re;
-                rate[1] = change.im;
-                deflection += cz_complex_product(g, change).re;
-            }
-            add_deflection(deflection, motion, &rail_rate[2 * bogie], &rail_rate[2 * bogie + 1]);
-        }
+            for (int k = 0; k < 2 * block->n[motion]; k++)
+                for (int j = 0; j < block->n_under; j++)
+                    *state++ = block->state[bogie][motion][k][block->lane[j]];
 }

@@ -30,11 +30,13 @@ typedef struct CzReceptanceSteps {
 typedef struct CzPairStepRows {
     _Alignas(64) CzRow flight_re, flight_im;
     CzRow kick_re, kick_im, now_re, now_im, past_re, past_im;
+    CzRow lambda_re, lambda_im; /* for a solver of ordinary differential equations */
 } CzPairStepRows;
 
 typedef struct CzReceptanceBlock {
     const CzReceptanceSteps *under[CZ_LANE_BLOCK]; /* each car; NULL without wheels */
     const CzReceptanceSteps *same;          /* under all cars with wheels; NULL where they differ */
+    int n_under, lane[CZ_LANE_BLOCK];       /* the lanes of cars with wheels (n_under) */
     int n[CZ_N_PAIR_MOTION];                /* most modes of a lane */
     CzPairStepRows *mode[CZ_N_PAIR_MOTION]; /* (n) */
     CzRow *state[2][CZ_N_PAIR_MOTION]; /* of the rear and the front bogie, real and imaginary parts
@@ -73,13 +75,9 @@ void cz_receptance_look(const CzReceptanceMotion *track, size_t lane, const doub
 /* Energy that the track under each car of a block can return, half a step ago [J]. */
 void cz_receptance_energy(const CzReceptanceMotion *track, int block, CzRow energy);
 
-/* For a solver that integrates the states, as in track.h: the number of states under a car, 0
- * without wheels, the states themselves, and their rates under forces upwards on the rail [N], with
- * the rate of the rail under each wheel [m/s]. */
-size_t cz_receptance_n_state(const CzReceptanceMotion *track, size_t lane);
-void cz_receptance_get_state(const CzReceptanceMotion *track, size_t lane, double *state);
-void cz_receptance_set_state(CzReceptanceMotion *track, size_t lane, const double *state);
-void cz_receptance_rate(const CzReceptanceMotion *track, size_t lane, const double force[4],
-                        double *rate, double rail_rate[4]);
+/* For a solver that integrates the states (dynamics.h): numbers of the states under a block, and
+ * the states. They are in the order of the rows, the cars of a row one after the other. */
+size_t cz_receptance_n_state(const CzReceptanceBlock *block);
+void cz_receptance_get_state(const CzReceptanceBlock *block, double *state);
 
 #endif

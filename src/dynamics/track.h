@@ -41,7 +41,7 @@ double cz_track_loss(const CzTrackMotion *track, size_t index);
  *
  *   1. cz_track_set_state for each car,
  *   2. the kernel's evaluation, which finds the forces of the wheels,
- *   3. cz_dynamics_track_rate (dynamics.h) for each car: the rates of its states under those
+ *   3. cz_track_rate for each car: the rates of its states under those
  * forces, and the track's part of the powers.
  *
  * At t = 0 cz_track_get_state gives the state at rest. Under usual axle loads a state is of the

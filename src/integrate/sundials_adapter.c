@@ -136,24 +136,45 @@ static sunrealtype weighted_norm(N_Vector x, N_Vector w) {
     return sqrt(((sum[0] + sum[1]) + (sum[2] + sum[3])) / (double)n);
 }
 
-/* Four vectors at a time, so that the sum passes through memory once per four. */
+/* Up to four terms of a sum, of which absent ones have the factor 0. */
+enum { AT_ONCE = 4 };
+typedef struct Terms {
+    int n;
+    double factor[AT_ONCE];
+    const double *vector[AT_ONCE];
+} Terms;
+
+/* Sets or increases the sum by the terms; two of them read half as much memory as four. */
+static void add_terms(const Terms *terms, bool is_first, double *sum, size_t n) {
+    const double *const *x = terms->vector, *c = terms->factor;
+    if (terms->n <= 2)
+        for (size_t i = 0; i < n; i++)
+            sum[i] = (is_first ? 0.0 : sum[i]) + (c[0] * x[0][i] + c[1] * x[1][i]);
+    else
+        for (size_t i = 0; i < n; i++)
+            sum[i] = (is_first ? 0.0 : sum[i]) + (c[0] * x[0][i] + c[1] * x[1][i]) +
+                     (c[2] * x[2][i] + c[3] * x[3][i]);
+}
+
+/* Four vectors at a time, so that the sum passes through memory once per four; vectors with the
+ * factor 0, of which a Runge-Kutta method has several, are left out. */
 static int linear_combination(int n_vector, sunrealtype *c, N_Vector *x, N_Vector z) {
     double *sum = N_VGetArrayPointer(z); /* may be x[0] */
-    const double *next[4];
-    double factor[4];
     const size_t n = length_of(z);
-    for (int first = 0; first < n_vector; first += 4) {
-        for (int k = 0; k < 4; k++) {
-            const bool is_there = first + k < n_vector;
-            next[k] = N_VGetArrayPointer(x[is_there ? first + k : first]);
-            factor[k] = is_there ? c[first + k] : 0.0;
-        }
-        for (size_t i = 0; i < n; i++) {
-            const double before = first > 0 ? sum[i] : 0.0;
-            sum[i] = before + (factor[0] * next[0][i] + factor[1] * next[1][i]) +
-                     (factor[2] * next[2][i] + factor[3] * next[3][i]);
-        }
-    }
+    int k = 0;
+    bool is_first = true;
+    do {
+        Terms terms = {.n = 0};
+        for (int i = 0; i < AT_ONCE; i++)
+            terms.vector[i] = sum;
+        for (; k < n_vector && terms.n < AT_ONCE; k++)
+            if (c[k] != 0.0) {
+                terms.factor[terms.n] = c[k];
+                terms.vector[terms.n++] = N_VGetArrayPointer(x[k]);
+            }
+        add_terms(&terms, is_first, sum, n);
+        is_first = false;
+    } while (k < n_vector);
     return 0;
 }
 

@@ -38,8 +38,8 @@ struct CzReference {
     CzSolver *solver;
     size_t n_place;
     Place *place;       /* (n_place); the state is each one's position and velocity in turn */
-    size_t n_lane;      /* lanes whose track states follow the states of the places */
-    double *track_rate; /* of these states at the last evaluation */
+    double *track_rate; /* of the tracks' states, which follow those of the places, at the last
+                           evaluation */
     Drop *drop;         /* (ode.n_drop) */
     double committed;   /* time of the last commit [s] */
     double evaluated;   /* time of the last evaluation [s]; NaN: none since the commit */
@@ -85,9 +85,9 @@ static void get_state(const CzReference *reference, double *state) {
     }
     const CzDynamics *dynamics = reference->batch->dynamics;
     double *track = state + 2 * reference->n_place;
-    for (size_t lane = 0; lane < reference->n_lane; lane++) {
-        cz_dynamics_track_get_state(dynamics, lane, track);
-        track += cz_dynamics_track_n_state(dynamics, lane);
+    for (int block = 0; block < dynamics->n_block; block++) {
+        cz_dynamics_track_get_state(dynamics, block, track);
+        track += cz_dynamics_track_n_state(dynamics, block);
     }
 }
 
@@ -96,12 +96,7 @@ static void set_state(const CzReference *reference, const double *state) {
         *reference->place[i].position = state[2 * i];
         *reference->place[i].velocity = state[2 * i + 1];
     }
-    CzDynamics *dynamics = reference->batch->dynamics;
-    const double *track = state + 2 * reference->n_place;
-    for (size_t lane = 0; lane < reference->n_lane; lane++) {
-        cz_dynamics_track_set_state(dynamics, lane, track);
-        track += cz_dynamics_track_n_state(dynamics, lane);
-    }
+    reference->batch->kernel->track_set(reference->batch->dynamics, state + 2 * reference->n_place);
 }
 
 /* Evaluates the laws at a state, unless it is the state of the last evaluation. */
@@ -113,11 +108,7 @@ static void evaluate(CzReference *reference, double time, const double *state) {
     const double step = fmax(time - reference->committed, SHORTEST_STEP);
     CzDynamics *dynamics = reference->batch->dynamics;
     reference->batch->kernel->evaluate(dynamics, step);
-    double *track_rate = reference->track_rate;
-    for (size_t lane = 0; lane < reference->n_lane; lane++) {
-        cz_dynamics_track_rate(dynamics, lane, track_rate);
-        track_rate += cz_dynamics_track_n_state(dynamics, lane);
-    }
+    reference->batch->kernel->track_rate(dynamics, reference->track_rate);
     memcpy(reference->at, state, size);
     reference->evaluated = time;
 }
@@ -178,15 +169,14 @@ CzStatus cz_reference_create(CzBatch *batch, CzMethod method, double tolerance, 
                              CzError *error) {
     CzArena *arena = &batch->arena;
     const size_t n_car = (size_t)batch->n_car, most = n_car * (CZ_N_DOF + 1);
-    const size_t n_lane = (size_t)batch->dynamics->n_block * CZ_LANE_BLOCK;
     size_t n_track = 0;
     *made = NULL;
     if (batch->dynamics->elements != NULL)
         return cz_fail(
             error, CZ_STATUS_INPUT,
             "the second solver supports the track models rigid, receptance and modal only");
-    for (size_t lane = 0; lane < n_lane; lane++)
-        n_track += cz_dynamics_track_n_state(batch->dynamics, lane);
+    for (int block = 0; block < batch->dynamics->n_block; block++)
+        n_track += cz_dynamics_track_n_state(batch->dynamics, block);
     CzReference *reference = cz_arena_allocate(arena, 1, sizeof *reference);
     Place *place = cz_arena_allocate(arena, most, sizeof *place);
     Drop *drop = cz_arena_allocate(arena, 2 * n_car, sizeof *drop);
@@ -196,7 +186,6 @@ CzStatus cz_reference_create(CzBatch *batch, CzMethod method, double tolerance, 
     *reference = (CzReference){.batch = batch,
                                .n_place = list_places(batch, place, allowed, tolerance),
                                .place = place,
-                               .n_lane = n_lane,
                                .drop = drop,
                                .evaluated = NAN};
     const size_t n = 2 * reference->n_place + n_track;

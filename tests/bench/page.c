@@ -114,7 +114,9 @@ static void put_figures(void) {
             continue;
         printf("| %s | %s %.3g | %s | %s | %s |\n", text_of(item, "what"), text_of(item, "asked"),
                limit, digits(found, value), digits(number_of(item, "median"), median),
-               (is_minimum ? found >= limit : found <= limit) ? "met" : "not met");
+               isnan(found)                                     ? "not measured yet"
+               : (is_minimum ? found >= limit : found <= limit) ? "met"
+                                                                : "not met");
     }
 }
 
@@ -186,6 +188,12 @@ static void put_batches(void) {
         putchar('\n');
     }
     char one[32], two[32], all[32], ratio[32], gradient[32], single[32];
+    printf(
+        "\nScenarios side by side, each as in a search and on one thread: %s ms a run for two cars "
+        "in 64 scenarios, %s ms for one of them alone; %s ms for one design of the metro in its "
+        "seven scenarios, %s ms for twelve.\n",
+        digits(time_of("scenarios.pair.64"), all), digits(time_of("scenarios.pair.1"), one),
+        digits(time_of("scenarios.metro.1"), single), digits(time_of("scenarios.metro.12"), two));
     printf("\n24 designs of 8+8 cars on the wall: %s ms a design on one thread, %s ms on two. "
            "10,000 designs in three scenarios of 8+8 cars would take %s s on two threads.\n\n"
            "Two cars with twelve variables: the value and twelve differences together take %s ms, "

@@ -53,6 +53,8 @@ static bool is_better(const CzSearch *search, const CzSearch *other) {
     const CzRecord *mine = &search->record[a], *theirs = &other->record[b];
     if ((mine->violation <= 0) != (theirs->violation <= 0))
         return mine->violation <= 0;
+    if (mine->violation <= 0 && mine->on_grid != theirs->on_grid)
+        return mine->on_grid;
     return mine->violation <= 0 ? mine->objective < theirs->objective
                                 : mine->penalty < theirs->penalty;
 }
@@ -80,16 +82,42 @@ static CzStatus begin(CzCombinations *combinations, int combination, const doubl
     return status;
 }
 
-/* Runs a short search of every combination, then uses all remaining evaluations for the best
- * one. */
+/* The combination of the file's own choices. */
+static int own_combination(const CzEvaluator *evaluator, int n, double *made) {
+    for (int combination = 0; combination < n; combination++) {
+        bool is_own = true;
+        cz_evaluator_set_combination(evaluator, combination, made);
+        for (int i = 0; i < cz_evaluator_n_variable(evaluator); i++) {
+            const CzVariableInfo *info = cz_evaluator_variable(evaluator, i);
+            is_own &= info->n_choice == 0 || made[i] == info->start;
+        }
+        if (is_own)
+            return combination;
+    }
+    return 0;
+}
+
+/* The i-th combination to be searched: the file's own first. */
+static int combination_at(int i, int own) {
+    return i == 0 ? own : i <= own ? i - 1 : i;
+}
+
+/* Runs a short search of every combination, the file's own first, then uses all remaining
+ * evaluations for the best one. */
 static CzStatus search_choices(int n, const CzOptimiseOptions *options,
                                CzCombinations *combinations, CzError *error) {
     const long half = options->evaluations / (2 * (long)n);
     long left = options->evaluations;
     int n_failed = 0;
-    for (int combination = 0; combination < n && left > 0; combination++) {
-        const CzStatus status =
-            begin(combinations, combination, options->start, half > 0 ? half : 1, options, error);
+    const CzEvaluator *evaluator = combinations->replay.evaluator;
+    double *made =
+        cz_arena_numbers(&combinations->arena, (size_t)cz_evaluator_n_variable(evaluator));
+    if (made == NULL)
+        return cz_no_memory(error, "the search");
+    const int own = own_combination(evaluator, n, made);
+    for (int i = 0; i < n && left > 0; i++) {
+        const CzStatus status = begin(combinations, combination_at(i, own), options->start,
+                                      half > 0 ? half : 1, options, error);
         const CzSearch *search = &combinations->subspace[combinations->n - 1].search;
         n_failed += status == CZ_STATUS_RUN_FAILED;
         if (status != CZ_OK && (status != CZ_STATUS_RUN_FAILED || n_failed == n))
@@ -107,7 +135,8 @@ static CzStatus search_choices(int n, const CzOptimiseOptions *options,
     if (start == NULL)
         return cz_no_memory(error, "a search");
     cz_subspace_expand(chosen, cz_search_x(best, record), start);
-    return begin(combinations, combinations->chosen, start, left, options, error);
+    const int i = combinations->chosen;
+    return begin(combinations, combination_at(i, own), start, left, options, error);
 }
 
 CzStatus cz_combinations(CzEvaluator *evaluator, const CzOptimiseOptions *options,

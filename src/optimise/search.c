@@ -246,6 +246,10 @@ double cz_search_compressed(double constraint) {
     return constraint <= knee ? constraint : knee * (1 + log(constraint / knee));
 }
 
+double cz_search_compressed_slope(double constraint) {
+    return constraint <= knee ? 1 : knee / constraint;
+}
+
 double cz_search_residual(double compressed) {
     const double weight = 30, reserve = 0.01; /* ours */
     return weight * fmax(compressed + reserve, 0);

@@ -118,6 +118,7 @@ bool cz_search_evaluate_start(CzSearch *search, const char *phase);
 
 /* A constraint on the scale of penalties: unchanged up to 0.1, logarithmic above. */
 double cz_search_compressed(double constraint);
+double cz_search_compressed_slope(double constraint);
 
 /* The residual of a further constraint of a fit: above 0 from slightly below the limit on. */
 double cz_search_residual(double constraint);

@@ -220,6 +220,137 @@ static void snap(CzSurface *surface, Shortlist *list, long limit, double *scratc
     }
 }
 
+/* ---- diving ---------------------------------------------------------------------------------- */
+
+/* A design on the increments from the planes: one variable after the other is fixed on one of its
+ * two nearest increments, and the planes are solved again for the others. */
+typedef struct Dive {
+    double *lo, *hi; /* box that is left, scaled (n) */
+    double *u, *x;   /* solution, scaled and natural (n) */
+    double *other;   /* scratch (n) */
+    double *reserve; /* distance of details below 0 (m) */
+    bool *is_fixed;  /* (n) */
+} Dive;
+
+static double rounded(const CzFunction *function, int i, double x, int side) {
+    const double step = function->step[i];
+    const double value = (side < 0 ? floor(x / step + 1e-9) : ceil(x / step - 1e-9)) * step;
+    return value >= function->min[i] && value <= function->max[i] ? value : NAN;
+}
+
+static double scaled(const CzFunction *function, int i, double x) {
+    return (x - function->min[i]) / (function->max[i] - function->min[i]);
+}
+
+/* The free variable that is nearest to an increment, -1 when all are fixed. */
+static int nearest_open(const CzFunction *function, const Dive *dive) {
+    int nearest = -1;
+    double least = INFINITY;
+    for (int i = 0; i < function->n_variable; i++) {
+        const double step = function->step[i];
+        if (dive->is_fixed[i] || !(step > 0))
+            continue;
+        const double distance = fabs(dive->x[i] / step - round(dive->x[i] / step));
+        if (distance < least) {
+            least = distance;
+            nearest = i;
+        }
+    }
+    return nearest;
+}
+
+/* Merit on the planes with variable i fixed at a value; the solution is written to u. Infinite when
+ * there is none. */
+static double solve_fixed(const CzSurface *surface, Dive *dive, int i, double value, double *u) {
+    if (isnan(value))
+        return INFINITY;
+    const double lo = dive->lo[i], hi = dive->hi[i];
+    dive->lo[i] = dive->hi[i] = scaled(surface->search->function, i, value);
+    double merit = INFINITY;
+    if (cz_surface_best_in(surface, dive->lo, dive->hi, dive->reserve, u))
+        merit = cz_surface_merit_at(surface, u, dive->reserve);
+    dive->lo[i] = lo;
+    dive->hi[i] = hi;
+    return merit;
+}
+
+/* Dives from the base of the planes; dive->x gets the design. False when it is incomplete. */
+static bool dive_once(const CzSurface *surface, Dive *dive) {
+    const CzFunction *function = surface->search->function;
+    const int n = surface->n;
+    for (int i = 0; i < n; i++) {
+        const double step = function->step[i] / (function->max[i] - function->min[i]);
+        const double reach = fmax(farthest, 1.01 * step);
+        dive->lo[i] = fmax(surface->u[i] - reach, 0);
+        dive->hi[i] = fmin(surface->u[i] + reach, 1);
+        dive->is_fixed[i] = false;
+    }
+    if (!cz_surface_best_in(surface, dive->lo, dive->hi, dive->reserve, dive->u))
+        return false;
+    cz_search_unscale(surface->search, 1, dive->u, dive->x);
+    for (int i; (i = nearest_open(function, dive)) >= 0;) {
+        double value = rounded(function, i, dive->x[i], -1);
+        const double up = rounded(function, i, dive->x[i], 1);
+        const double below = solve_fixed(surface, dive, i, value, dive->u);
+        const double above = solve_fixed(surface, dive, i, up, dive->other);
+        if (!isfinite(below) && !isfinite(above))
+            return false;
+        if (above < below) {
+            memcpy(dive->u, dive->other, (size_t)n * sizeof *dive->u);
+            value = up;
+        }
+        dive->lo[i] = dive->hi[i] = scaled(function, i, value);
+        cz_search_unscale(surface->search, 1, dive->u, dive->x);
+        dive->is_fixed[i] = true;
+        for (int k = 0; k < n; k++) /* exactly on the increment */
+            if (dive->is_fixed[k])
+                dive->x[k] = round(dive->x[k] / function->step[k]) * function->step[k];
+    }
+    return true;
+}
+
+/* Dives again and again. What a simulated design violates, the next one keeps with a reserve of
+ * that size more; where a design passes, the reserves are halved. */
+static void dive(CzSurface *surface, long limit) {
+    enum { MOST_DIVES = 12, MOST_IDLE_DIVES = 5 };
+    CzSearch *search = surface->search;
+    const size_t n = (size_t)surface->n, m = (size_t)surface->m;
+    CzArena arena = {0};
+    Dive dive = {.lo = cz_arena_numbers(&arena, n),
+                 .hi = cz_arena_numbers(&arena, n),
+                 .u = cz_arena_numbers(&arena, n),
+                 .x = cz_arena_numbers(&arena, n),
+                 .other = cz_arena_numbers(&arena, n),
+                 .reserve = cz_arena_numbers(&arena, m),
+                 .is_fixed = cz_arena_allocate(&arena, n, sizeof(bool))};
+    int n_idle = 0;
+    for (int k = 0; k < MOST_DIVES && !arena.out_of_memory && n_idle < MOST_IDLE_DIVES; k++) {
+        if (search->n_record >= limit || !dive_once(surface, &dive))
+            break;
+        const long before = search->best_on_grid;
+        long record = cz_search_find(search, dive.x);
+        memcpy(surface->x, dive.x, n * sizeof *dive.x);
+        if (record < 0) {
+            if (!cz_surface_probe(surface, "snap"))
+                break;
+            record = search->n_record - 1;
+        } else { /* its details are not known any more */
+            memset(surface->many_d, 0, m * sizeof *surface->many_d);
+        }
+        search->is_snapped = true;
+        n_idle = search->best_on_grid != before ? 0 : n_idle + 1;
+        const bool is_kept = search->record[record].penalty <= 0;
+        for (size_t j = 0; j < m; j++) {
+            const double c = surface->many_d[j];
+            if (is_kept)
+                dive.reserve[j] /= 2;
+            else if (c >= 0)
+                dive.reserve[j] += fmin(c + 1e-3, 0.05);
+        }
+    }
+    cz_arena_free(&arena);
+}
+
 /* Computes slopes around the best design if the evaluations suffice for them and for a further
  * design, else uses those of the last base; without slopes the nearest designs are tried first. */
 static bool begin(CzSurface *surface, const double *u, long evaluations) {
@@ -230,7 +361,7 @@ static bool begin(CzSurface *surface, const double *u, long evaluations) {
     return true;
 }
 
-void cz_snap(CzSurface *surface, long evaluations) {
+void cz_snap(CzSurface *surface, long evaluations, bool is_last) {
     CzSearch *search = surface->search;
     if (!cz_search_has_steps(search) || search->best < 0)
         return;
@@ -245,7 +376,13 @@ void cz_snap(CzSurface *surface, long evaluations) {
     Shortlist list = {.surface = surface, .u = u};
     for (size_t i = 0; i <= BATCH; i++)
         list.design[i].x = memory + i * n;
-    if (begin(surface, u, evaluations))
-        snap(surface, &list, limit, memory + (BATCH + 1) * n);
+    /* the last time the slopes are those of the best design, before that those of a near one */
+    const bool is_at_best =
+        surface->record >= 0 && (is_last ? surface->record == search->best : is_near(surface, u));
+    if (is_at_best || begin(surface, u, evaluations)) {
+        dive(surface, limit);
+        const long few = search->n_record + BATCH;
+        snap(surface, &list, is_last || few > limit ? limit : few, memory + (BATCH + 1) * n);
+    }
     free(memory);
 }

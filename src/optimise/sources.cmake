@@ -1,8 +1,9 @@
 # Sources of src/optimise, one per line.
 set(CZ_SOURCES_optimise
     alternatives.c
-    gauss_newton.c
     combinations.c
+    gauss_newton.c
+    linear_program.c
     nlopt_adapter.c
     optimise.c
     outcome.c

@@ -19,14 +19,22 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-enum { MOST_STARTS = 6, SCREEN_BATCH = 16, MOST_BATCH = 8 };
+enum {
+    MOST_STARTS = 60,
+    MOST_STARTS_OF_FIT = 6,
+    MOST_IDLE_STARTS = 8, /* descents in a row without an improvement (ours) */
+    FEWEST_POINTS = 6,    /* of a screen between two descents */
+    SCREEN_BATCH = 16,
+    MOST_BATCH = 8
+};
 
 /* Half width of the smaller box around the start, from which every other screening point is
  * drawn. */
 static const double near_start = 0.2;
 
-static void screen(CzSearch *search, unsigned long seed, long n_point) {
+static void screen(CzSearch *search, unsigned long seed, long offset, long n_point) {
     const int n = search->function->n_variable;
     const size_t room = (size_t)(2 * n + 1 + search->function->n_constraint);
     double *u = cz_search_numbers(search, SCREEN_BATCH * room + (size_t)n);
@@ -40,7 +48,7 @@ static void screen(CzSearch *search, unsigned long seed, long n_point) {
         const int batch = left < SCREEN_BATCH ? (int)left : SCREEN_BATCH;
         for (int i = 0; i < batch; i++) {
             double *point = u + i * n;
-            cz_sample_point(seed, first + i, n, point);
+            cz_sample_point(seed, offset + first + i, n, point);
             for (int j = 0; j < n && i % 2 == 1; j++) {
                 point[j] = start[j] + near_start * (2 * point[j] - 1);
                 point[j] = fmin(fmax(point[j], 0), 1);
@@ -66,31 +74,24 @@ static long best_apart(const CzSearch *search, int n_chosen, const double *chose
     return best;
 }
 
-/* Descends from each of the best distant screening points: on response surfaces, or on the
- * residuals of a fit. */
-static CzStatus descend(CzSurface *surface, long evaluations, CzError *error) {
-    CzSearch *search = surface->search;
-    const bool is_fit = search->function->is_fit;
-    const int n = surface->n;
+/* Descends on the residuals of a fit, from each of the best distant screening points. */
+static CzStatus descend_fit(CzSearch *search, long evaluations, CzError *error) {
+    const int n = search->function->n_variable;
     const long limit = search->n_record + evaluations;
-    double *chosen = calloc((size_t)(MOST_STARTS + 1) * (size_t)n, sizeof *chosen);
+    double *chosen = calloc((size_t)(MOST_STARTS_OF_FIT + 1) * (size_t)n, sizeof *chosen);
     if (chosen == NULL)
         return cz_no_memory(error, "the starting points");
-    double *u = chosen + MOST_STARTS * n;
+    double *u = chosen + MOST_STARTS_OF_FIT * n;
     CzStatus status = CZ_OK;
-    for (int start = 0; start < MOST_STARTS && status == CZ_OK; start++) {
+    for (int start = 0; start < MOST_STARTS_OF_FIT && status == CZ_OK; start++) {
         const long record = best_apart(search, start, chosen, start == 0 ? 0 : 0.15, u);
-        if (is_fit) /* failures of earlier, distant points do not count here */
-            cz_search_resume(search);
+        cz_search_resume(search); /* failures of earlier, distant points do not count here */
         const long left = limit - search->n_record;
-        if (record < 0 || left < 3 * (n + (is_fit ? 3 : 1)) || cz_search_left(search) == 0)
+        if (record < 0 || left < 3 * (n + 3) || cz_search_left(search) == 0)
             break;
         double *from = chosen + start * n;
         cz_search_scale(search, cz_search_x(search, record), from);
-        if (is_fit)
-            status = cz_gauss_newton(search, "descend", from, left, error);
-        else
-            cz_surface_descend(surface, "descend", from, left);
+        status = cz_gauss_newton(search, "descend", from, left, error);
     }
     free(chosen);
     return status;
@@ -176,19 +177,92 @@ static CzStatus polish_fit(CzSearch *search, long reserve, CzError *error) {
     return CZ_OK;
 }
 
-/* Screen, descend, polish, without the evaluations that are reserved for the catalogue increments.
- */
-static CzStatus search_by_phases(CzSurface *surface, unsigned long seed, CzError *error) {
-    CzSearch *search = surface->search;
-    const bool is_fit = search->function->is_fit;
+/* Screen, descend, polish of a fit, without the evaluations that are reserved for the catalogue
+ * increments. */
+static CzStatus fit_by_phases(CzSearch *search, unsigned long seed, CzError *error) {
     const long reserve = cz_snap_reserve(search);
     const long total = search->most_evaluations - reserve;
     if (!cz_search_evaluate_start(search, "start"))
         return CZ_OK;
-    const long enough = 2L * search->function->n_variable; /* a poor start costs more than these */
-    screen(search, seed, is_fit ? total / 5 : fmax(total / 10, fmin(enough, total / 4)));
-    CZ_TRY(descend(surface, is_fit ? total / 2 : total * 2 / 3, error));
-    return is_fit ? polish_fit(search, reserve, error) : polish(search, reserve, error);
+    screen(search, seed, 0, total / 5);
+    CZ_TRY(descend_fit(search, total / 2, error));
+    return polish_fit(search, reserve, error);
+}
+
+/* Starts and ends of the descents so far, scaled (n x n_variable). */
+typedef struct Visited {
+    int n;
+    double *u;
+    double *scratch; /* (n_variable) */
+} Visited;
+
+static void visit(Visited *visited, const double *u, int n_variable) {
+    memcpy(visited->u + visited->n++ * n_variable, u, (size_t)n_variable * sizeof *u);
+}
+
+/* The design from which the next descent begins: the start, then the best one that is distant from
+ * the earlier descents, after more points; -1 when there is none. The last evaluations, too few for
+ * a new descent, go to the best design. */
+static long next_start(CzSearch *search, unsigned long seed, int start, long left,
+                       Visited *visited) {
+    const int n = search->function->n_variable;
+    const long n_screen = n + 2 < FEWEST_POINTS  ? FEWEST_POINTS
+                          : n + 2 < SCREEN_BATCH ? n + 2
+                                                 : SCREEN_BATCH;
+    if (start == 0)
+        return 0;
+    if (left <= n_screen + 3 * (n + 2))
+        return search->best;
+    screen(search, seed, (start - 1) * n_screen, n_screen);
+    const double apart = 0.15 / (1 + start / 4);
+    return best_apart(search, visited->n, visited->u, apart, visited->scratch);
+}
+
+/* Descends from the start, then from the best of further points that fill the box, as long as
+ * evaluations are left and some of the latest descents improved the best design, which each time is
+ * moved to the catalogue increments. */
+static void search_basins(CzSurface *surface, unsigned long seed, Visited *visited) {
+    CzSearch *search = surface->search;
+    const int n = surface->n;
+    const long reserve = cz_search_has_steps(search) ? n / 2 + 8 : 0;
+    int n_idle = 0;
+    for (int start = 0; start < MOST_STARTS && n_idle < MOST_IDLE_STARTS; start++) {
+        const long gain_before = search->last_gain, best_before = search->best;
+        const long record =
+            next_start(search, seed, start, cz_search_left(search) - reserve, visited);
+        const long left = cz_search_left(search) - reserve;
+        if (left < n + 2)
+            break;
+        if (record >= 0) {
+            const double *from = start == 0 ? search->function->start : cz_search_x(search, record);
+            cz_search_scale(search, from, visited->scratch);
+            visit(visited, visited->scratch, n);
+            cz_surface_descend(surface, "descend", from, left);
+            visit(visited, surface->u, n);
+        }
+        if (search->last_gain != gain_before)
+            n_idle = 0;
+        else if (record >= 0)
+            n_idle++;
+        if (search->best != best_before)
+            cz_snap(surface, cz_search_left(search), false);
+    }
+}
+
+/* Descents from several designs; then the best one is refined, on the increments by `cz_strategy`.
+ */
+static CzStatus search_by_phases(CzSurface *surface, unsigned long seed, CzError *error) {
+    CzSearch *search = surface->search;
+    const size_t n = (size_t)surface->n;
+    Visited visited = {.u = cz_search_numbers(search, (2 * MOST_STARTS + 1) * n)};
+    if (visited.u == NULL)
+        return cz_no_memory(error, "the starting points");
+    visited.scratch = visited.u + 2 * MOST_STARTS * n;
+    search_basins(surface, seed, &visited);
+    free(visited.u);
+    if (search->n_record == 0) /* too few evaluations for planes */
+        cz_search_evaluate_start(search, "start");
+    return cz_search_has_steps(search) ? CZ_OK : polish(search, 0, error);
 }
 
 /* Repeats one algorithm from the best design as long as that is an improvement. */
@@ -212,12 +286,13 @@ CzStatus cz_strategy(CzSearch *search, const char *algorithm, unsigned long seed
         cz_surface_free(&surface);
         return cz_no_memory(error, "the response surfaces");
     }
-    const CzStatus status = algorithm != NULL ? repeat(search, algorithm, seed, error)
-                                              : search_by_phases(&surface, seed, error);
+    const CzStatus status = algorithm != NULL          ? repeat(search, algorithm, seed, error)
+                            : search->function->is_fit ? fit_by_phases(search, seed, error)
+                                                       : search_by_phases(&surface, seed, error);
     search->is_spent =
         cz_search_left(search) - cz_snap_reserve(search) < search->function->n_variable + 2;
     if (status == CZ_OK)
-        cz_snap(&surface, search->most_evaluations - search->n_record);
+        cz_snap(&surface, search->most_evaluations - search->n_record, true);
     cz_surface_free(&surface);
     return status;
 }

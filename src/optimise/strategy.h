@@ -17,7 +17,7 @@ CZ_MUST_CHECK CzStatus cz_strategy(CzSearch *search, const char *algorithm, unsi
 /* Moves from the best design to the best one on the catalogue increments, with at most this many
  * evaluations, until there is no improvement. The surface is moved to that base when there are
  * evaluations for its slopes. */
-void cz_snap(CzSurface *surface, long evaluations);
+void cz_snap(CzSurface *surface, long evaluations, bool is_last);
 
 /* Evaluations that a strategy reserves for the catalogue increments. */
 long cz_snap_reserve(const CzSearch *search);

@@ -1,6 +1,6 @@
 /* Linear response surfaces: planes around a base design, and their correction. */
 #include "optimise/surface.h"
-#include "optimise/nlopt_adapter.h"
+#include "optimise/linear_program.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,16 +9,25 @@
 bool cz_surface_create(CzSurface *surface, CzSearch *search, int most) {
     const int n = search->function->n_variable, m = cz_search_n_detail(search);
     const size_t batch = (size_t)(most > n + 1 ? most : n + 1);
-    *surface = (CzSurface){.search = search, .n = n, .m = m, .record = -1, .most = (int)batch};
+    *surface = (CzSurface){.search = search,
+                           .n = n,
+                           .m = m,
+                           .record = -1,
+                           .scale = 1,
+                           .weight = 10,
+                           .most = (int)batch};
     CzArena *arena = &surface->arena;
     surface->u = cz_arena_numbers(arena, (size_t)n);
     surface->c = cz_arena_numbers(arena, (size_t)m);
     surface->df = cz_arena_numbers(arena, (size_t)n);
     surface->dc = cz_arena_numbers(arena, (size_t)(m * n));
     surface->x = cz_arena_numbers(arena, batch * (size_t)n);
+    surface->usual_reserve = cz_arena_numbers(arena, (size_t)m);
     surface->many_f = cz_arena_numbers(arena, batch);
     surface->many_c = cz_arena_numbers(arena, batch * (size_t)search->function->n_constraint);
     surface->many_d = cz_arena_numbers(arena, batch * (size_t)m);
+    for (int k = 0; k < m && !arena->out_of_memory; k++)
+        surface->usual_reserve[k] = 1e-3;
     return !arena->out_of_memory;
 }
 
@@ -39,6 +48,20 @@ static void set_base(CzSurface *surface, long record, int point, const double *u
     memcpy(surface->c, surface->many_d + point * surface->m, (size_t)surface->m * sizeof(double));
 }
 
+/* Replaces the slopes of a detail by its secants (a column of many_d), unless it is violated and no
+ * variable changes it, as when a stroke is used up: the slopes from the designs before lead back.
+ */
+static void renew_slopes(CzSurface *surface, int k) {
+    const double flat = 1e-2; /* of a margin over the range of a variable */
+    double largest = 0;
+    for (int i = 0; i < surface->n; i++)
+        largest = fmax(largest, fabs(surface->many_d[i * surface->m + k]));
+    if (surface->c[k] > 0 && largest < flat)
+        return;
+    for (int i = 0; i < surface->n; i++)
+        surface->dc[k * surface->n + i] = surface->many_d[i * surface->m + k];
+}
+
 /* Computes new secants around the base. False when the search ended. */
 static bool refresh(CzSurface *surface, const char *phase, double secant) {
     const int n = surface->n, m = surface->m;
@@ -54,8 +77,10 @@ static bool refresh(CzSurface *surface, const char *phase, double secant) {
         const double h = cz_search_secant(surface->u[i], secant);
         surface->df[i] = (surface->many_f[i] - surface->f) / h;
         for (int k = 0; k < m; k++)
-            surface->dc[k * n + i] = (surface->many_d[i * m + k] - surface->c[k]) / h;
+            surface->many_d[i * m + k] = (surface->many_d[i * m + k] - surface->c[k]) / h;
     }
+    for (int k = 0; k < m; k++)
+        renew_slopes(surface, k);
     surface->is_fresh = true;
     return true;
 }
@@ -155,144 +180,295 @@ double cz_surface_predict(const CzSurface *surface, const double *u, double *pen
                                                  : plane_at(surface, surface->f, surface->df, u);
 }
 
+bool cz_surface_probe(CzSurface *surface, const char *phase) {
+    return evaluate(surface, phase, 1);
+}
+
+double cz_surface_merit_at(const CzSurface *surface, const double *u, const double *reserve) {
+    double largest = -INFINITY, penalty = 0;
+    for (int k = 0; k < surface->m; k++) {
+        const double c = detail_at(surface, k, u);
+        largest = fmax(largest, c);
+        penalty += cz_search_compressed(fmax(c + (reserve != NULL ? reserve[k] : 0), 0));
+    }
+    const double objective = surface->search->function->is_minimax
+                                 ? largest
+                                 : plane_at(surface, surface->f, surface->df, u) / surface->scale;
+    return objective + surface->weight * penalty;
+}
+
 /* ---- the best design on the planes ----------------------------------------------------------- */
 
-/* The planes as a function for NLopt, which needs no simulation. */
-typedef struct Planes {
-    const CzSurface *surface;
-    const int *detail; /* those that can matter within the box (n_constraint) */
-    int n_constraint;
-} Planes;
-
-static CzStatus evaluate_planes(void *data, int n_point, const double *u, double *objective,
-                                double *constraint, double *detail, CzError *error) {
-    const Planes *planes = data;
-    const CzSurface *surface = planes->surface;
-    (void)detail;
-    (void)error;
-    for (int point = 0; point < n_point; point++) {
-        const double *at = u + point * surface->n;
-        double *c = constraint + point * planes->n_constraint;
-        double largest = -1;
-        for (int j = 0; j < planes->n_constraint; j++) {
-            c[j] = detail_at(surface, planes->detail[j], at);
-            largest = fmax(largest, c[j]);
-        }
-        objective[point] = surface->search->function->is_minimax
-                               ? largest
-                               : plane_at(surface, surface->f, surface->df, at);
+/* Whether a detail can be violated, or, where the largest one counts, be the largest, within the
+ * box. */
+static bool can_matter(const CzSurface *surface, int k, const double *lo, const double *hi,
+                       double floor) {
+    double largest = surface->c[k];
+    for (int i = 0; i < surface->n; i++) {
+        const double slope = surface->dc[k * surface->n + i];
+        largest += fmax(slope * (lo[i] - surface->u[i]), slope * (hi[i] - surface->u[i]));
     }
-    return CZ_OK;
+    return largest >= floor;
 }
 
-/* Lists the details that can be the largest or violated within the box around the base. */
-static int choose_details(const CzSurface *surface, double radius, int *chosen) {
-    const int n = surface->n;
-    double floor = 0;
-    for (int pass = 0; pass < 2; pass++) {
-        int n_chosen = 0;
-        for (int k = 0; k < surface->m; k++) {
-            double reach = 0;
-            for (int i = 0; i < n; i++)
-                reach += fabs(surface->dc[k * n + i]) * radius;
-            if (pass == 0 && surface->search->function->is_minimax)
-                floor = k == 0 ? surface->c[k] - reach : fmax(floor, surface->c[k] - reach);
-            else if (pass == 1 && surface->c[k] + reach >= fmin(floor, 0) - 1e-3)
-                chosen[n_chosen++] = k;
+/* No design in the box has its largest detail below this. */
+static double least_largest(const CzSurface *surface, const double *lo, const double *hi) {
+    double floor = -INFINITY;
+    for (int k = 0; k < surface->m; k++) {
+        double least = surface->c[k];
+        for (int i = 0; i < surface->n; i++) {
+            const double slope = surface->dc[k * surface->n + i];
+            least += fmin(slope * (lo[i] - surface->u[i]), slope * (hi[i] - surface->u[i]));
         }
-        if (pass == 1)
-            return n_chosen;
+        floor = fmax(floor, least);
     }
-    return 0;
+    return floor;
 }
 
-/* Searches the planes in the box lo..hi with NLopt; the best design is written to u. */
-static bool search_planes(const CzSurface *surface, const Planes *planes, const double *lo,
-                          const double *hi, const double *no_step, double *u) {
-    const CzFunction function = {.n_variable = surface->n,
-                                 .n_constraint = planes->n_constraint,
-                                 .min = lo,
-                                 .max = hi,
-                                 .start = surface->u,
-                                 .step = no_step,
-                                 .is_minimax = surface->search->function->is_minimax,
-                                 .evaluate = evaluate_planes,
-                                 .data = (void *)planes};
-    const CzOptimiseOptions options = {.evaluations = 400L * (surface->n + 1)};
-    CzSearch inner;
-    cz_search_init(&inner, &function, &options);
-    CzNloptRun run = cz_nlopt_run_default("LD_SLSQP");
-    run.form = CZ_FORM_ELASTIC;
-    run.reserve = 1e-3;
-    double *start = cz_search_numbers(surface->search, (size_t)surface->n);
-    bool found = start != NULL;
+/* A linear program under construction: the variables are the change of the design, and the largest
+ * detail where that is minimised. */
+typedef struct Draft {
+    CzArena arena;
+    CzLinearProgram program;
+    double *g, *c, *a, *w, *lo, *hi, *d;
+} Draft;
+
+static bool begin_draft(Draft *draft, int n, int most) {
+    CzArena *arena = &draft->arena;
+    draft->g = cz_arena_numbers(arena, (size_t)n);
+    draft->lo = cz_arena_numbers(arena, (size_t)n);
+    draft->hi = cz_arena_numbers(arena, (size_t)n);
+    draft->d = cz_arena_numbers(arena, (size_t)n);
+    draft->c = cz_arena_numbers(arena, (size_t)most);
+    draft->w = cz_arena_numbers(arena, (size_t)most);
+    draft->a = cz_arena_numbers(arena, (size_t)(most * n));
+    draft->program = (CzLinearProgram){.n = n,
+                                       .g = draft->g,
+                                       .c = draft->c,
+                                       .a = draft->a,
+                                       .w = draft->w,
+                                       .lo = draft->lo,
+                                       .hi = draft->hi};
+    return !arena->out_of_memory;
+}
+
+/* Adds detail k, less the largest detail where `below` is 1. */
+static void add_row(Draft *draft, const CzSurface *surface, int k, double price, double reserve,
+                    double below) {
+    const int n = draft->program.n, row = draft->program.m++;
+    memcpy(draft->a + row * n, surface->dc + k * surface->n, (size_t)surface->n * sizeof *draft->a);
+    if (n > surface->n)
+        draft->a[row * n + surface->n] = -below;
+    draft->c[row] = surface->c[k] + reserve;
+    draft->w[row] = price;
+}
+
+/* Price of a violation: with it the sum over the details changes as the penalty of a search. */
+static double price_of(const CzSurface *surface, double c) {
+    return surface->weight * cz_search_compressed_slope(c);
+}
+
+static void fill_draft(Draft *draft, const CzSurface *surface, const double *lo, const double *hi,
+                       const double *reserve) {
+    const bool is_minimax = surface->search->function->is_minimax;
+    const double floor = is_minimax ? fmin(least_largest(surface, lo, hi), 0) : 0;
+    double largest = -INFINITY;
+    for (int k = 0; k < surface->m; k++)
+        largest = fmax(largest, surface->c[k]);
+    for (int i = 0; i < surface->n; i++) {
+        draft->g[i] = is_minimax ? 0 : surface->df[i] / surface->scale;
+        draft->lo[i] = lo[i] - surface->u[i];
+        draft->hi[i] = hi[i] - surface->u[i];
+        draft->d[i] = fmin(fmax(0, draft->lo[i]), draft->hi[i]);
+    }
+    if (is_minimax) {
+        const int n = surface->n;
+        draft->g[n] = 1;
+        draft->lo[n] = -2;
+        draft->hi[n] = draft->d[n] = fmax(largest, 0) + 1;
+    }
+    for (int k = 0; k < surface->m; k++) {
+        if (!can_matter(surface, k, lo, hi, floor - 1e-3))
+            continue;
+        if (is_minimax)
+            add_row(draft, surface, k, 1e3, 0, 1);
+        if (!is_minimax || largest > 0)
+            add_row(draft, surface, k, price_of(surface, surface->c[k]), reserve[k], 0);
+    }
+}
+
+bool cz_surface_best_in(const CzSurface *surface, const double *lo, const double *hi,
+                        const double *reserve, double *u) {
+    const bool is_minimax = surface->search->function->is_minimax;
+    Draft draft = {.arena = {0}};
+    bool found = begin_draft(&draft, surface->n + is_minimax, surface->m * (1 + is_minimax));
     if (found) {
-        cz_search_scale(&inner, surface->u, start);
-        found = cz_nlopt_run(&inner, &run, start, NULL) == CZ_OK && inner.best >= 0;
+        fill_draft(&draft, surface, lo, hi, reserve);
+        found = cz_linear_program(&draft.program, draft.d);
     }
-    if (found)
-        memcpy(u, cz_search_x(&inner, inner.best), (size_t)surface->n * sizeof *u);
-    cz_search_free(&inner);
-    free(start);
+    for (int i = 0; i < surface->n && found; i++)
+        u[i] = fmin(fmax(surface->u[i] + draft.d[i], 0), 1);
+    cz_arena_free(&draft.arena);
     return found;
 }
 
 bool cz_surface_best(const CzSurface *surface, double radius, double *u) {
     const size_t n = (size_t)surface->n;
-    double *box = cz_search_numbers(surface->search, 3 * n);
-    int *detail = calloc((size_t)surface->m + 1, sizeof *detail);
-    bool found = box != NULL && detail != NULL;
-    if (found) {
-        for (size_t i = 0; i < n; i++) {
-            box[i] = fmax(surface->u[i] - radius, 0);
-            box[n + i] = fmin(surface->u[i] + radius, 1);
-        }
-        const Planes planes = {.surface = surface,
-                               .detail = detail,
-                               .n_constraint = choose_details(surface, radius, detail)};
-        found = search_planes(surface, &planes, box, box + n, box + 2 * n, u);
+    double *box = cz_search_numbers(surface->search, 2 * n);
+    bool found = box != NULL;
+    for (size_t i = 0; i < n && found; i++) {
+        box[i] = fmax(surface->u[i] - radius, 0);
+        box[n + i] = fmin(surface->u[i] + radius, 1);
     }
+    found = found && cz_surface_best_in(surface, box, box + n, surface->usual_reserve, u);
     free(box);
-    free(detail);
     return found;
 }
 
 /* ---- moving ---------------------------------------------------------------------------------- */
 
-enum {
-    RADII = 3,   /* boxes tried side by side: the radius, a third, a ninth */
-    PATIENCE = 2 /* evaluations without an improvement, in multiples of those of a gradient */
-};
+/* Sum of the compressed violations of point `point` of the last evaluation, as the planes have
+ * them; infinite when it failed. */
+static double penalty_of(const CzSurface *surface, int point) {
+    const CzSearch *search = surface->search;
+    const CzRecord *record = &search->record[search->n_record - 1];
+    const double *c = surface->many_d + point * surface->m;
+    if (isnan(record->objective))
+        return INFINITY;
+    double penalty = record->violation > 0 && record->missed <= 0 ? record->violation : 0;
+    for (int k = 0; k < surface->m; k++)
+        penalty += cz_search_compressed(fmax(c[k], 0));
+    return penalty;
+}
 
-void cz_surface_descend(CzSurface *surface, const char *phase, const double *u, long evaluations) {
+/* What a descent lowers: the objective and the price of violations. A design that violates a
+ * constraint by little is a good base, because the planes then lead to one that does not. */
+static double merit(const CzSurface *surface, double objective, double penalty) {
+    return objective / surface->scale + surface->weight * penalty;
+}
+
+static double farthest_step(const CzSurface *surface, const double *u) {
+    double largest = 0;
+    for (int i = 0; i < surface->n; i++)
+        largest = fmax(largest, fabs(u[i] - surface->u[i]));
+    return largest;
+}
+
+/* Evaluates one scaled design and moves the base to it when its merit is less; returns the change
+ * of the merit over the predicted one, NaN when the search ended. */
+static double try_step(CzSurface *surface, const char *phase, const double *u) {
+    CzSearch *search = surface->search;
+    const double wanted =
+        cz_surface_merit_at(surface, surface->u, NULL) - cz_surface_merit_at(surface, u, NULL);
+    double *step = cz_search_numbers(search, (size_t)surface->n);
+    if (step == NULL)
+        return NAN;
+    cz_search_unscale(search, 1, u, surface->x);
+    if (!evaluate(surface, phase, 1)) {
+        free(step);
+        return NAN;
+    }
+    const double penalty = penalty_of(surface, 0);
+    const double gain =
+        merit(surface, surface->f, surface->penalty) -
+        (isfinite(penalty) ? merit(surface, surface->many_f[0], penalty) : INFINITY);
+    if (isfinite(penalty))
+        correct_all(surface, 0, u, step);
+    if (gain > 0) {
+        surface->n_outside = penalty > 0.5 * surface->penalty ? surface->n_outside + 1 : 0;
+        set_base(surface, search->n_record - 1, 0, u);
+        surface->penalty = penalty;
+    }
+    free(step);
+    return gain / fmax(wanted, 1e-9);
+}
+
+static const double largest_radius = 0.5;
+static const double least_gain = 1e-5; /* on the planes, of the merit, for a step */
+
+static const double first_weight = 1;
+
+/* Boxes do not become smaller: a share of an increment is of no use. */
+static double smallest_box(const CzSearch *search) {
+    const CzFunction *function = search->function;
+    double least = 0.5;
+    for (int i = 0; i < function->n_variable; i++)
+        least = fmin(least, function->step[i] / (function->max[i] - function->min[i]));
+    return fmax(2e-3, least / 2);
+}
+
+/* Sets the base, with new secants, and what is lowered. False when the search ended or the design
+ * failed. */
+static bool begin_descent(CzSurface *surface, const char *phase, const double *x, double secant) {
+    CzSearch *search = surface->search;
+    double *u = cz_search_numbers(search, (size_t)surface->n);
+    if (u == NULL)
+        return false;
+    memcpy(surface->x, x, (size_t)surface->n * sizeof *x); /* `x` may move with the history */
+    cz_search_scale(search, surface->x, u);
+    if (!evaluate(surface, search->n_record == 0 ? "start" : phase, 1)) {
+        free(u);
+        return false;
+    }
+    set_base(surface, surface->search->n_record - 1, 0, u);
+    const double size = fabs(surface->f);
+    surface->scale = surface->search->function->is_minimax || !(size > 1e-9) ? 1 : size;
+    surface->weight = first_weight;
+    surface->penalty = penalty_of(surface, 0);
+    surface->n_outside = 0;
+    free(u);
+    return isfinite(surface->penalty) && refresh(surface, phase, secant);
+}
+
+void cz_surface_descend(CzSurface *surface, const char *phase, const double *x, long evaluations) {
     CzSearch *search = surface->search;
     const int n = surface->n;
     const long limit = search->n_record + evaluations;
-    const double smallest = 5e-3;
-    double radius = 0.15, secant = 0.02;
-    double *tried = cz_search_numbers(search, (size_t)(RADII * n));
-    if (tried == NULL || evaluations < n + 1 + RADII ||
-        !cz_surface_begin(surface, phase, u, secant)) {
-        free(tried);
+    double radius = 0.2;
+    const double smallest_radius = smallest_box(search);
+    const double least_progress = !cz_search_has_steps(search)   ? 1e-3
+                                  : search->function->is_minimax ? 5e-3
+                                                                 : 2e-2;
+    const double secant = 0.02;
+    double *next = cz_search_numbers(search, (size_t)n);
+    if (next == NULL || evaluations < n + 2 || !begin_descent(surface, phase, x, secant)) {
+        free(next);
         return;
     }
-    while (radius > smallest && search->n_record + RADII <= limit &&
-           search->n_record - search->last_gain <= PATIENCE * (n + 1)) {
-        int n_tried = 0, moved_to;
-        for (int i = 0; i < RADII; i++)
-            n_tried += cz_surface_best(surface, radius * pow(3, -i), tried + n_tried * n);
-        if (n_tried == 0 || !cz_surface_try(surface, phase, n_tried, tried, &moved_to))
+    int n_failed = 0;
+    double at_refresh = merit(surface, surface->f, surface->penalty);
+    while (search->n_record < limit && cz_surface_best(surface, radius, next)) {
+        const double step = farthest_step(surface, next);
+        const double wanted = cz_surface_merit_at(surface, surface->u, NULL) -
+                              cz_surface_merit_at(surface, next, NULL);
+        const bool is_worth = wanted > least_gain && step > smallest_radius / 4;
+        double ratio = -1;
+        if (is_worth) {
+            ratio = try_step(surface, phase, next);
+            if (isnan(ratio))
+                break;
+        }
+        if (surface->n_outside >= 3 && surface->weight < 1e4) {
+            surface->weight *= 5;
+            surface->n_outside = 0;
+            at_refresh = INFINITY;
+        }
+        const bool may_grow = n_failed == 0;
+        n_failed = ratio > 0.1 ? 0 : n_failed + 1;
+        if (ratio > 0.7 && step > 0.9 * radius && may_grow)
+            radius = fmin(2 * radius, largest_radius);
+        else if (ratio < 0.25)
+            radius = fmin(radius, fmax(step, smallest_radius)) * (ratio < 0 ? 0.35 : 0.5);
+        if (is_worth && n_failed < 4 && radius > smallest_radius)
+            continue;
+        if (surface->is_fresh || search->n_record + n > limit ||
+            !(merit(surface, surface->f, surface->penalty) < at_refresh - least_progress))
             break;
-        if (moved_to == 0)
-            radius = fmin(1.5 * radius, 0.4);
-        else if (moved_to > 0)
-            radius *= moved_to == 1 ? 0.6 : 0.2;
-        else if (surface->is_fresh || search->n_record + n > limit)
-            radius *= 0.1;
-        else if (refresh(surface, phase, fmin(secant, radius)))
-            radius = fmax(0.3 * radius, 0.02);
-        else
+        at_refresh = merit(surface, surface->f, surface->penalty);
+        if (!refresh(surface, phase, fmax(fmin(secant, radius), smallest_radius)))
             break;
+        radius = fmax(radius, 0.05);
+        n_failed = 0;
     }
-    free(tried);
+    free(next);
 }

@@ -20,7 +20,12 @@ typedef struct CzSurface {
     double *u;                            /* base, scaled (n) */
     double f, *c;                         /* objective and details of the base (m) */
     double *df, *dc;                      /* slopes (n), (m x n) */
+    double *usual_reserve;                /* distance of details below 0 in a descent (m) */
     bool is_fresh;                        /* no design has corrected the slopes since the secants */
+    double penalty;                       /* of the base in a descent: sum of its violations */
+    int n_outside;                        /* steps in a row that left it violated as before */
+    double scale;                         /* of the objective */
+    double weight;                        /* price of violations in its units */
     double *x, *many_f, *many_c, *many_d; /* scratch for `most` designs */
     int most;
 } CzSurface;
@@ -46,12 +51,24 @@ bool cz_surface_try_exact(CzSurface *surface, const char *phase, int n_point, in
 /* Planes at scaled u: returns the objective and adds up the violations as the search ranks them. */
 double cz_surface_predict(const CzSurface *surface, const double *u, double *penalty);
 
-/* Best scaled design on the planes within `radius` of the base and within the bounds, by NLopt.
- * False when it cannot be found. */
+/* Evaluates the first design of surface->x; its details are then the first of surface->many_d. The
+ * planes stay as they are. */
+bool cz_surface_probe(CzSurface *surface, const char *phase);
+
+/* What a descent lowers, on the planes: the objective and the price of violations, where detail k
+ * is to be below 0 by reserve[k] (m); NULL: by 0. */
+double cz_surface_merit_at(const CzSurface *surface, const double *u, const double *reserve);
+
+/* Best scaled design on the planes in the scaled box lo..hi, by a linear program. Detail k is
+ * to be below 0 by reserve[k] (m). False when it cannot be found. */
+bool cz_surface_best_in(const CzSurface *surface, const double *lo, const double *hi,
+                        const double *reserve, double *u);
+
+/* The same within `radius` of the base and within the bounds. */
 bool cz_surface_best(const CzSurface *surface, double radius, double *u);
 
-/* Moves from scaled design u by boxes that grow and shrink, with at most `evaluations` evaluations,
- * until there is no improvement. The surface stays at the last base. */
-void cz_surface_descend(CzSurface *surface, const char *phase, const double *u, long evaluations);
+/* Moves from design x, in the variables' units, by boxes that grow and shrink, with at most
+ * `evaluations` evaluations, until there is no improvement. The surface stays at the last base. */
+void cz_surface_descend(CzSurface *surface, const char *phase, const double *x, long evaluations);
 
 #endif

@@ -13,6 +13,11 @@ if(CZ_IS_WHOLE)
         target_link_libraries(${program} PRIVATE bench_cases)
         cz_build_for(bench ${program})
     endforeach()
+    # Compares searches on problems/bench-designs.
+    add_executable(bench_searches ${CMAKE_CURRENT_LIST_DIR}/searches.c)
+    target_include_directories(bench_searches PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+    target_link_libraries(bench_searches PRIVATE cz_static)
+    cz_build_for(bench bench_searches)
     # Prints docs/performance.md from what was measured.
     add_executable(bench_page ${CMAKE_CURRENT_LIST_DIR}/page.c)
     target_link_libraries(bench_page PRIVATE cz_flags PkgConfig::JANSSON m)

@@ -14,6 +14,10 @@ for file in "$SOURCE"/problems/*.yaml; do
     summary() { "$C" run "$file" $short -q -o "$name" >/dev/null 2>&1; follows summary "$name/summary.json"; }
     check "summary.json of $name follows its schema" summary
 done
+for file in "$SOURCE"/problems/bench-designs/*.yaml; do
+    valid() { exits 0 "$C" validate "$file" --quiet; }
+    check "$(basename "$file") is valid" valid
+done
 for name in buffer-choice paper-25kmh-identify; do
     outcome() { "$C" optimise "$SOURCE/problems/$name.yaml" $short --evaluations 4 -q -o "$name.found" >/dev/null 2>&1; follows outcome "$name.found/outcome.json" && follows summary "$name.found/summary.json"; }
     check "outcome.json of $name follows its schema" outcome

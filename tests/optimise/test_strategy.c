@@ -152,7 +152,9 @@ static void same_seed_gives_the_same_history_and_another_seed_another(void **sta
     assert_int_equal(a.n_record, b.n_record);
     const size_t size = (size_t)(a.n_record * 4) * sizeof(double);
     assert_memory_equal(a.x, b.x, size);
-    assert_memory_not_equal(a.x, other.x, (size_t)(20 * 4) * sizeof(double));
+    /* the descent from the start has no random numbers */
+    const long n_both = other.n_record < a.n_record ? other.n_record : a.n_record;
+    assert_memory_not_equal(a.x, other.x, (size_t)(n_both * 4) * sizeof(double));
     cz_search_free(&a);
     cz_search_free(&b);
     cz_search_free(&other);

@@ -36,15 +36,15 @@ CzSampleOptions cz_sample_options_default(void) {
 /* ---- running --------------------------------------------------------------------------------- */
 
 /* Runs the samples of a bench, or the nominal design. */
-static CzStatus run_bench(const Sampler *sampler, const CzSampleBench *bench, int n,
+static CzStatus run_bench(const Sampler *sampler, const CzCaseBench *bench, int n,
                           const int *sample, CzError *error) {
     CzEvaluation evaluation = {0};
     cz_evaluator_set_stop(bench->evaluator, sampler->options->stop);
     CzStatus status =
         cz_evaluator_again(bench->evaluator, &bench->evaluator->manner, NULL, &evaluation, error);
-    if (status == CZ_OK && sample[0] == CZ_NOMINAL_SAMPLE)
+    if (status == CZ_OK && sample[0] == CZ_UNCHANGED_CASE)
         cz_sampling_keep_bare(sampler->sampling, bench, &evaluation);
-    for (int k = 0; status == CZ_OK && sample[0] != CZ_NOMINAL_SAMPLE && k < n; k++)
+    for (int k = 0; status == CZ_OK && sample[0] != CZ_UNCHANGED_CASE && k < n; k++)
         status = cz_sampling_keep(sampler->sampling, bench, &evaluation, sample[k], k, error);
     cz_evaluation_free(&evaluation);
     return status;
@@ -72,9 +72,10 @@ static CzStatus run_each(const Sampler *sampler, int n, const int *sample, CzErr
 }
 
 static CzStatus run_samples(const Sampler *sampler, int n, const int *sample, CzError *error) {
-    CzSampleBench bench;
+    CzCaseBench bench;
     CzError mistake = {0};
-    CzStatus status = cz_sample_bench_build(sampler->sampling, n, sample, &bench, &mistake);
+    CzStatus status = cz_case_bench_build(&sampler->sampling->parts->cases, n, sample,
+                                          sampler->sampling->value, &bench, &mistake);
     if (status == CZ_OK)
         status = run_bench(sampler, &bench, n, sample, error);
     else if (status == CZ_STATUS_INPUT && n == 1)
@@ -83,7 +84,7 @@ static CzStatus run_samples(const Sampler *sampler, int n, const int *sample, Cz
         status = run_each(sampler, n, sample, error);
     else if (error != NULL)
         *error = mistake;
-    cz_sample_bench_free(&bench);
+    cz_case_bench_free(&bench);
     return status;
 }
 
@@ -142,12 +143,13 @@ static CzStatus run_nominal(const Sampler *sampler, CzError *error) {
     cz_evaluator_set_stop(sampling->parts->evaluator, sampler->options->stop);
     CZ_TRY(cz_evaluate(sampling->parts->evaluator, 1, NULL, false, &sampling->nominal, error));
     cz_sampling_keep_nominal(sampling);
-    CzSampleBench bench;
-    const int nominal = CZ_NOMINAL_SAMPLE;
-    CzStatus status = cz_sample_bench_build(sampling, 1, &nominal, &bench, error);
+    CzCaseBench bench;
+    const int nominal = CZ_UNCHANGED_CASE;
+    CzStatus status =
+        cz_case_bench_build(&sampling->parts->cases, 1, &nominal, NULL, &bench, error);
     if (status == CZ_OK)
         status = run_bench(sampler, &bench, 1, &nominal, error);
-    cz_sample_bench_free(&bench);
+    cz_case_bench_free(&bench);
     return status;
 }
 

@@ -3,19 +3,15 @@
 #define CZ_EVALUATE_SAMPLING_H
 
 #include "crushzone/sample.h"
-#include "evaluate/evaluator_parts.h"
+#include "evaluate/cases.h"
 
 /* Memory that a sampling owns besides its arrays. */
 typedef struct CzSamplingParts {
     CzArena arena;          /* of draws and texts */
     CzEvaluator *evaluator; /* of the nominal design, for the texts of its evaluation */
-    const int *scenario;    /* scenarios of the problem that are sampled (n_scenario) */
-    int n_scenario;
-    int *check_scenario; /* of each check, as a place in that list (n_check) */
+    CzCases cases;
+    CzCaseChecks checks; /* the checks of the sampling */
 } CzSamplingParts;
-
-/* Number of the sample without changes. */
-enum { CZ_NOMINAL_SAMPLE = -1 };
 
 /* ---- before the first run (sampling_begin.c) ---- */
 
@@ -27,36 +23,14 @@ CZ_MUST_CHECK CzStatus cz_sampling_begin_draws(CzSampling *sampling, const CzSam
  * of every sample, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_sampling_begin_checks(CzSampling *sampling, CzError *error);
 
-/* ---- runs (sample_cases.c, sample_names.c) ---- */
-
-/* A problem with the scenarios of some samples, and its evaluator, which runs nothing else. The
- * scenarios of a sample follow one another, behind those of the file. */
-typedef struct CzSampleBench {
-    CzProblem *problem;
-    CzEvaluator *evaluator;
-} CzSampleBench;
-
-/* Builds the bench of n samples, or of CZ_NOMINAL_SAMPLE alone, which is the nominal design without
- * its reserves; freed also after a failure. Statuses: CZ_OK, CZ_STATUS_INPUT when the reader
- * refuses the values of a sample, CZ_STATUS_NO_MEMORY. */
-CZ_MUST_CHECK CzStatus cz_sample_bench_build(const CzSampling *sampling, int n, const int *sample,
-                                             CzSampleBench *bench, CzError *error);
-void cz_sample_bench_free(CzSampleBench *bench);
-
-/* Name of a scenario of the problem in a sample, which is counted from 0. */
-void cz_sample_case_name(const CzSampling *sampling, int scenario, int sample,
-                         char name[CZ_NAME_ROOM]);
-
 /* ---- results (sampling_results.c, sampling_statistics.c) ---- */
 
 /* Keeps the results of the k-th sample of a bench. Status: CZ_STATUS_NO_MEMORY. */
-CZ_MUST_CHECK CzStatus cz_sampling_keep(CzSampling *sampling, const CzSampleBench *bench,
+CZ_MUST_CHECK CzStatus cz_sampling_keep(CzSampling *sampling, const CzCaseBench *bench,
                                         const CzEvaluation *evaluation, int sample, int k,
                                         CzError *error);
-/* The n-th check of a name, from 0, of a sampled scenario; -1 when there is none. */
-int cz_sampling_find_check(const CzSampling *sampling, int scenario, const char *name, int n);
 /* Keeps the margins of the nominal design: without reserves, and with them. */
-void cz_sampling_keep_bare(CzSampling *sampling, const CzSampleBench *bench,
+void cz_sampling_keep_bare(CzSampling *sampling, const CzCaseBench *bench,
                            const CzEvaluation *evaluation);
 void cz_sampling_keep_nominal(CzSampling *sampling);
 

@@ -12,32 +12,6 @@
 #include "evaluate/draws.h"
 #include "problem/keys.h"
 
-/* Whether a scenario is sampled: those that the file names, or all but overload cases. */
-static bool is_sampled(const CzTexts *names, const CzScenario *scenario) {
-    if (names->n_text == 0)
-        return !(scenario->mass_factor >= CZ_OVERLOAD_FACTOR * (1 - 1e-9));
-    return cz_text_is_among(scenario->name, names->n_text, names->text) ||
-           (scenario->family != NULL &&
-            cz_text_is_among(scenario->family, names->n_text, names->text));
-}
-
-static CzStatus list_scenarios(CzSampling *sampling, CzError *error) {
-    const CzProblem *problem = sampling->problem;
-    const CzInput *input = cz_problem_input(problem);
-    const CzUncertainty *uncertainty = &input->uncertainty;
-    CzSamplingParts *parts = sampling->parts;
-    int *scenario = cz_arena_allocate(&parts->arena, (size_t)input->n_scenarios, sizeof *scenario);
-    if (scenario == NULL)
-        return cz_no_memory(error, "the scenarios of a sample");
-    for (int s = 0; s < input->n_scenarios; s++)
-        if (is_sampled(&uncertainty->scenarios, &input->scenarios[s]))
-            scenario[parts->n_scenario++] = s;
-    parts->scenario = scenario;
-    if (parts->n_scenario == 0)
-        return cz_problem_fail(problem, &uncertainty->scenarios, error, "no scenario is sampled");
-    return CZ_OK;
-}
-
 /* The samples of a shard: equal runs of samples, some of them one longer where they differ. */
 static CzStatus cut_shard(CzSampling *sampling, const CzSampleOptions *options, CzError *error) {
     const long long n = sampling->n_sample, of = options->n_shard;
@@ -82,9 +56,15 @@ CzStatus cz_sampling_begin_draws(CzSampling *sampling, const CzSampleOptions *op
     if (sampling->judged_by == NULL)
         return cz_no_memory(error, "a sampling");
     CZ_TRY(cut_shard(sampling, options, error));
-    CZ_TRY(list_scenarios(sampling, error));
-    CZ_TRY(cz_draws_list(problem, parts->scenario[0], &parts->arena, &sampling->n_draw,
+    CzCases *cases = &parts->cases;
+    *cases = (CzCases){
+        .problem = problem, .word = "sample", .n_earlier = cz_cases_n_earlier(problem, "sample")};
+    CZ_TRY(cz_cases_scenarios(problem, &uncertainty->scenarios, &parts->arena, &cases->n_scenario,
+                              &cases->scenario, error));
+    CZ_TRY(cz_draws_list(problem, cases->scenario[0], &parts->arena, &sampling->n_draw,
                          &sampling->draw, error));
+    cases->n_draw = sampling->n_draw;
+    cases->draw = sampling->draw;
     const size_t n_value = (size_t)sampling->n_sample * (size_t)sampling->n_draw;
     sampling->value = malloc(n_value * sizeof *sampling->value);
     sampling->sample = calloc((size_t)sampling->n_sample, sizeof *sampling->sample);
@@ -99,83 +79,55 @@ CzStatus cz_sampling_begin_draws(CzSampling *sampling, const CzSampleOptions *op
                          sampling->draw, sampling->value, error);
 }
 
-/* Sampled scenario of a check of an evaluator whose cases begin with scene `first`; -1 for none. */
-static int case_of_check(const CzEvaluator *evaluator, int check, int first, int n_scenario) {
-    const char *name = cz_check_scenario(&evaluator->list.check[check], evaluator->scene);
-    for (int j = 0; j < n_scenario; j++)
-        if (strcmp(name, evaluator->scene[first + j].name) == 0)
-            return j;
-    return -1;
-}
-
-/* Number of checks before this one that have its name and scenario. */
-static int n_before(const CzEvaluator *evaluator, int check) {
-    const CzCheck *list = evaluator->list.check;
-    const char *scenario = cz_check_scenario(&list[check], evaluator->scene);
-    int n = 0;
-    for (int i = 0; i < check; i++)
-        n += !list[i].is_target && strcmp(list[i].name, list[check].name) == 0 &&
-             strcmp(cz_check_scenario(&list[i], evaluator->scene), scenario) == 0;
-    return n;
-}
-
-/* Adds the checks of the first sample of a bench that are not listed yet. */
-static CzStatus add_checks(CzSampling *sampling, const CzEvaluator *evaluator, CzError *error) {
-    const CzSamplingParts *parts = sampling->parts;
-    CzArena *arena = &sampling->parts->arena;
-    const int first = cz_problem_n_scenario(sampling->problem);
-    const size_t room = (size_t)(sampling->n_check + evaluator->list.n_check) + 1;
-    CzSampledCheck *list = cz_arena_allocate(arena, room, sizeof *list);
-    int *of_check = cz_arena_allocate(arena, room, sizeof *of_check);
-    if (list == NULL || of_check == NULL)
-        return cz_no_memory(error, "the checks of a sample");
-    for (int i = 0; i < sampling->n_check; i++) {
-        list[i] = sampling->check[i];
-        of_check[i] = parts->check_scenario[i];
-    }
-    sampling->check = list;
-    sampling->parts->check_scenario = of_check;
-    for (int i = 0; i < evaluator->list.n_check; i++) {
-        const CzCheck *check = &evaluator->list.check[i];
-        const int j = check->is_target ? -1 : case_of_check(evaluator, i, first, parts->n_scenario);
-        if (j < 0 || cz_sampling_find_check(sampling, j, check->name, n_before(evaluator, i)) >= 0)
-            continue;
-        const int n = sampling->n_check++;
-        of_check[n] = j;
-        list[n] = (CzSampledCheck){
-            .name = cz_arena_copy_text(arena, check->name, strlen(check->name)),
-            .scenario = cz_problem_scenario_name(sampling->problem, parts->scenario[j]),
-            .is_flag = check->scale == CZ_FLAG_SCALE,
-            .nominal = NAN,
-            .bare = NAN,
-            .strongest = -1,
-            .correlation = cz_arena_allocate(arena, (size_t)sampling->n_draw, sizeof(double))};
-        if (list[n].name == NULL || list[n].correlation == NULL)
-            return cz_no_memory(error, "the checks of a sample");
-    }
-    return CZ_OK;
-}
-
 /* Lists the checks of the nominal design without its reserves, then those of the first sample that
  * the reader accepts: only there are rules of the design, and a changed speed may change the rules
  * of a scenario. */
 static CzStatus list_checks(CzSampling *sampling, CzError *error) {
+    CzSamplingParts *parts = sampling->parts;
     CzStatus status = CZ_STATUS_INPUT;
-    for (int k = CZ_NOMINAL_SAMPLE; k < sampling->n_sample; k++) {
-        CzSampleBench bench;
+    for (int k = CZ_UNCHANGED_CASE; k < sampling->n_sample; k++) {
+        CzCaseBench bench;
         CzError *first_error = k <= 0 ? error : NULL; /* of many that are refused */
-        status = cz_sample_bench_build(sampling, 1, &k, &bench, first_error);
+        status = cz_case_bench_build(&parts->cases, 1, &k, sampling->value, &bench, first_error);
         if (status == CZ_OK)
-            status = add_checks(sampling, bench.evaluator, error);
-        cz_sample_bench_free(&bench);
-        if (k != CZ_NOMINAL_SAMPLE && status != CZ_STATUS_INPUT)
+            status =
+                cz_case_checks_add(&parts->cases, &bench, &parts->arena, &parts->checks, error);
+        cz_case_bench_free(&bench);
+        if (k != CZ_UNCHANGED_CASE && status != CZ_STATUS_INPUT)
             break;
     }
     return status;
 }
 
+/* The listed checks without results. */
+static CzStatus begin_results(CzSampling *sampling, CzError *error) {
+    CzSamplingParts *parts = sampling->parts;
+    CzArena *arena = &parts->arena;
+    sampling->n_check = parts->checks.n;
+    sampling->check =
+        cz_arena_allocate(arena, (size_t)sampling->n_check + 1, sizeof *sampling->check);
+    if (sampling->check == NULL)
+        return cz_no_memory(error, "the checks of a sample");
+    for (int i = 0; i < sampling->n_check; i++) {
+        const CzCaseCheck *check = &parts->checks.check[i];
+        const int scenario = parts->cases.scenario[check->scenario];
+        sampling->check[i] =
+            (CzSampledCheck){.name = check->name,
+                             .scenario = cz_problem_scenario_name(sampling->problem, scenario),
+                             .is_flag = check->is_flag,
+                             .nominal = NAN,
+                             .bare = NAN,
+                             .strongest = -1,
+                             .correlation = cz_arena_numbers(arena, (size_t)sampling->n_draw)};
+        if (sampling->check[i].correlation == NULL)
+            return cz_no_memory(error, "the checks of a sample");
+    }
+    return CZ_OK;
+}
+
 CzStatus cz_sampling_begin_checks(CzSampling *sampling, CzError *error) {
     CZ_TRY(list_checks(sampling, error));
+    CZ_TRY(begin_results(sampling, error));
     const size_t n = (size_t)sampling->n_sample * (size_t)sampling->n_check;
     sampling->margin = malloc((n + 1) * sizeof *sampling->margin);
     sampling->verdict = malloc((n + 1) * sizeof *sampling->verdict);

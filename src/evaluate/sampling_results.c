@@ -18,28 +18,6 @@ typedef struct Keeper {
     int deciding;     /* the worst of them; -1 while there is none */
 } Keeper;
 
-int cz_sampling_find_check(const CzSampling *sampling, int scenario, const char *name, int n) {
-    for (int i = 0; i < sampling->n_check; i++)
-        if (sampling->parts->check_scenario[i] == scenario &&
-            strcmp(sampling->check[i].name, name) == 0 && n-- == 0)
-            return i;
-    return -1;
-}
-
-/* The check of the sampling that the i-th result of an evaluation belongs to; -1 when there is
- * none, or the result is not of that scenario. */
-static int check_of(const CzSampling *sampling, const CzEvaluation *evaluation, int i, int scenario,
-                    const char *scenario_name) {
-    const CzCheckResult *result = &evaluation->check[i];
-    int n = 0; /* results of this name before */
-    if (strcmp(result->scenario, scenario_name) != 0)
-        return -1;
-    for (int k = 0; k < i; k++)
-        n += strcmp(evaluation->check[k].scenario, scenario_name) == 0 &&
-             strcmp(evaluation->check[k].name, result->name) == 0;
-    return cz_sampling_find_check(sampling, scenario, result->name, n);
-}
-
 /* Adds a result to the sample, which belongs to a check of the sampling. A check that has a margin
  * at the nominal design, but none in a run that failed or left the validity of the model, is below
  * all others there. */
@@ -64,20 +42,15 @@ static void keep_result(Keeper *keeper, const CzCheckResult *result, int check, 
 
 /* Notes a run that failed or is incomplete; false without memory. */
 static bool keep_failure(CzSample *kept, const CzRunSummary *run, const char *scenario) {
-    const char *reason = run->failure[0] != '\0' ? run->failure : cz_failure_of(run);
     kept->state = CZ_SAMPLE_RUN_FAILED;
-    if (kept->message != NULL)
-        return true;
-    const size_t room = strlen(reason) + strlen(scenario) + 3;
-    kept->message = malloc(room);
-    if (kept->message != NULL)
-        snprintf(kept->message, room, "%s: %s", scenario, reason);
+    if (kept->message == NULL)
+        kept->message = cz_case_failure(run, scenario);
     return kept->message != NULL;
 }
 
 /* Keeps a scenario of the sample, which is scenario s of the bench; the runs begin behind the
  * scenarios of the file. */
-static bool keep_scenario(Keeper *keeper, const CzSampleBench *bench, int scenario, int s) {
+static bool keep_scenario(Keeper *keeper, const CzCaseBench *bench, int scenario, int s) {
     const CzSampling *sampling = keeper->sampling;
     const CzEvaluation *evaluation = keeper->evaluation;
     const CzRunSummary *run =
@@ -87,19 +60,20 @@ static bool keep_scenario(Keeper *keeper, const CzSampleBench *bench, int scenar
     CzSample *kept = &keeper->sampling->sample[keeper->sample];
     kept->beyond_validity |= run->beyond_validity;
     for (int i = 0; i < evaluation->n_check; i++) {
-        const int check = check_of(sampling, evaluation, i, scenario, name);
+        const int check = cz_case_check_of(&sampling->parts->checks, evaluation, i, scenario, name);
         if (check >= 0)
             keep_result(keeper, &evaluation->check[i], check, has_failed);
     }
-    return !has_failed || keep_failure(kept, run,
-                                       cz_problem_scenario_name(
-                                           sampling->problem, sampling->parts->scenario[scenario]));
+    return !has_failed ||
+           keep_failure(kept, run,
+                        cz_problem_scenario_name(sampling->problem,
+                                                 sampling->parts->cases.scenario[scenario]));
 }
 
 /* Keeps the k-th sample of a bench. */
-CzStatus cz_sampling_keep(CzSampling *sampling, const CzSampleBench *bench,
+CzStatus cz_sampling_keep(CzSampling *sampling, const CzCaseBench *bench,
                           const CzEvaluation *evaluation, int sample, int k, CzError *error) {
-    const int n_scenario = sampling->parts->n_scenario;
+    const int n_scenario = sampling->parts->cases.n_scenario;
     const int first = cz_problem_n_scenario(sampling->problem) + k * n_scenario;
     Keeper keeper = {.sampling = sampling,
                      .evaluation = evaluation,
@@ -119,13 +93,13 @@ CzStatus cz_sampling_keep(CzSampling *sampling, const CzSampleBench *bench,
     return fits ? CZ_OK : cz_no_memory(error, "the results of a sample");
 }
 
-void cz_sampling_keep_bare(CzSampling *sampling, const CzSampleBench *bench,
+void cz_sampling_keep_bare(CzSampling *sampling, const CzCaseBench *bench,
                            const CzEvaluation *evaluation) {
     const int first = cz_problem_n_scenario(sampling->problem);
-    for (int j = 0; j < sampling->parts->n_scenario; j++)
+    for (int j = 0; j < sampling->parts->cases.n_scenario; j++)
         for (int i = 0; i < evaluation->n_check; i++) {
-            const int check =
-                check_of(sampling, evaluation, i, j, bench->evaluator->scene[first + j].name);
+            const int check = cz_case_check_of(&sampling->parts->checks, evaluation, i, j,
+                                               bench->evaluator->scene[first + j].name);
             if (check >= 0)
                 sampling->check[check].bare = evaluation->check[i].margin;
         }
@@ -134,12 +108,13 @@ void cz_sampling_keep_bare(CzSampling *sampling, const CzSampleBench *bench,
 void cz_sampling_keep_nominal(CzSampling *sampling) {
     const CzEvaluation *evaluation = &sampling->nominal;
     static const char design[] = "design"; /* its rules are those of each sample */
-    for (int j = 0; j < sampling->parts->n_scenario; j++) {
+    for (int j = 0; j < sampling->parts->cases.n_scenario; j++) {
         const char *name =
-            cz_problem_scenario_name(sampling->problem, sampling->parts->scenario[j]);
+            cz_problem_scenario_name(sampling->problem, sampling->parts->cases.scenario[j]);
         for (int i = 0; i < evaluation->n_check; i++) {
             const bool is_of_design = strcmp(evaluation->check[i].scenario, design) == 0;
-            const int check = check_of(sampling, evaluation, i, j, is_of_design ? design : name);
+            const int check = cz_case_check_of(&sampling->parts->checks, evaluation, i, j,
+                                               is_of_design ? design : name);
             if (check >= 0)
                 sampling->check[check].nominal = evaluation->check[i].margin;
         }

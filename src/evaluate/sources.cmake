@@ -13,6 +13,8 @@ set(CZ_SOURCES_evaluate
     evaluator_parts.c
     explain.c
     candidate_changes.c
+    case_names.c
+    cases.c
     match.c
     metric.c
     metric_values.c
@@ -21,7 +23,6 @@ set(CZ_SOURCES_evaluate
     result_units.c
     run_plan.c
     runs.c
-    sample_cases.c
     sample_names.c
     sampling.c
     sampling_begin.c

@@ -129,7 +129,7 @@ static void write_worst(CzMarkup *markup, const CzReport *report) {
 static void write_draws(CzMarkup *markup, const CzSampling *sampling) {
     CzReportTable table;
     cz_markup_write(markup, "<section id='numbers'>\n<h2>Random numbers</h2>\n");
-    cz_sample_begin_draws(&table, sampling);
+    cz_sample_begin_draws(&table, CZ_DRAW_HEADS("random number"), sampling->n_draw, sampling->draw);
     cz_table_write_page(&table, markup);
     cz_markup_write(markup, "</section>\n");
 }

@@ -60,16 +60,24 @@ void cz_replay_write_command(const CzReport *report, int sample, FILE *stream) {
         }
 }
 
-static void write_changes(const CzSampling *sampling, int sample, FILE *stream) {
+void cz_replay_begin_scenarios(const CzProblem *problem, FILE *stream) {
+    fputs("scenarios:\n", stream);
+    if (cz_problem_n_scenario(problem) == 1) /* a file without scenarios has this one unwritten */
+        fprintf(stream, "  - {name: %s}\n", cz_problem_scenario_name(problem, 0));
+}
+
+void cz_replay_write_scenario(const CzProblem *problem, int scenario, const char *name, int n_draw,
+                              const CzDraw *draw, const double *value, FILE *stream) {
     static const char *const keys[] = {
         [CZ_DRAW_VALUE] = "value", [CZ_DRAW_FACTOR] = "factor", [CZ_DRAW_ADD] = "add"};
-    for (int d = 0; d < sampling->n_draw; d++)
-        for (int i = 0; i < sampling->draw[d].n_path; i++) {
+    fprintf(stream, "  - name: %s\n    like: %s\n    reserves: false\n    changes:\n", name,
+            cz_problem_scenario_name(problem, scenario));
+    for (int d = 0; d < n_draw; d++)
+        for (int i = 0; i < draw[d].n_path; i++) {
             char number[CZ_NUMBER_TEXT];
             fputs("      - {path: ", stream);
-            cz_overlay_write_text(sampling->draw[d].path[i], stream);
-            fprintf(stream, ", %s: %s}\n", keys[sampling->draw[d].effect],
-                    cz_number_print(number, cz_sample_value(sampling, sample, d)));
+            cz_overlay_write_text(draw[d].path[i], stream);
+            fprintf(stream, ", %s: %s}\n", keys[draw[d].effect], cz_number_print(number, value[d]));
         }
 }
 
@@ -84,14 +92,12 @@ void cz_replay_write(const CzReport *report, int sample, const char *folder, FIL
         fputc('\n', stream);
     }
     cz_overlay_write_base(report, problem, folder, "../", stream);
-    fputs("scenarios:\n", stream);
-    if (cz_problem_n_scenario(problem) == 1) /* a file without scenarios has this one unwritten */
-        fprintf(stream, "  - {name: %s}\n", cz_problem_scenario_name(problem, 0));
-    for (int j = 0; j < parts->n_scenario; j++) {
+    cz_replay_begin_scenarios(problem, stream);
+    for (int j = 0; j < parts->cases.n_scenario; j++) {
         char name[CZ_NAME_ROOM];
-        cz_sample_case_name(sampling, parts->scenario[j], sample, name);
-        fprintf(stream, "  - name: %s\n    like: %s\n    reserves: false\n    changes:\n", name,
-                cz_problem_scenario_name(problem, parts->scenario[j]));
-        write_changes(sampling, sample, stream);
+        cz_case_name(&parts->cases, j, sample, name);
+        cz_replay_write_scenario(
+            problem, parts->cases.scenario[j], name, sampling->n_draw, sampling->draw,
+            sampling->value + (size_t)sample * (size_t)sampling->n_draw, stream);
     }
 }

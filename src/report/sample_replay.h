@@ -11,6 +11,12 @@ enum { CZ_REPLAY_ROOM = 40 };
 /* Name of its file in the result folder. */
 void cz_replay_name(int sample, char name[CZ_REPLAY_ROOM]);
 
+/* Begins the list of further scenarios of a problem, and writes one of them: like a scenario of the
+ * problem, with these values (n_draw) of draws. */
+void cz_replay_begin_scenarios(const CzProblem *problem, FILE *stream);
+void cz_replay_write_scenario(const CzProblem *problem, int scenario, const char *name, int n_draw,
+                              const CzDraw *draw, const double *value, FILE *stream);
+
 /* Writes the scenarios of a sample as a file that extends the problem; `folder` is the final path
  * of the result folder. */
 void cz_replay_write(const CzReport *report, int sample, const char *folder, FILE *stream);

@@ -154,10 +154,11 @@ static void put_draw(CzReportTable *table, const CzDraw *draw) {
     cz_table_put(table, cz_figure_digits(low, 9, draw->n_place));
 }
 
-void cz_sample_begin_draws(CzReportTable *table, const CzSampling *sampling) {
-    cz_table_begin(table, "random number;distribution;range;>values");
-    for (int d = 0; d < sampling->n_draw; d++)
-        put_draw(table, &sampling->draw[d]);
+void cz_sample_begin_draws(CzReportTable *table, const char *heads, int n_draw,
+                           const CzDraw *draw) {
+    cz_table_begin(table, heads);
+    for (int d = 0; d < n_draw; d++)
+        put_draw(table, &draw[d]);
 }
 
 /* ---- the terminal ---- */
@@ -235,7 +236,8 @@ void cz_sample_write_table(const CzReport *report, CzTerminal *terminal) {
     cz_sample_say_how(sampling, text);
     cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n\n", text);
     if (sampling->n_draw <= MOST_DRAWS) {
-        cz_sample_begin_draws(&table, sampling);
+        cz_sample_begin_draws(&table, CZ_DRAW_HEADS("random number"), sampling->n_draw,
+                              sampling->draw);
         cz_table_write_text(&table, terminal);
         fputc('\n', terminal->stream);
     }

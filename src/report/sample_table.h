@@ -21,6 +21,8 @@ const char *cz_sample_word(CzVerdict verdict, CzStyle *style);
 /* The table of checks, or of the worst one of each name; returns the number of those left out. */
 int cz_sample_begin_checks(CzReportTable *table, const CzSampling *sampling, const int *order,
                            bool each_name_once);
-void cz_sample_begin_draws(CzReportTable *table, const CzSampling *sampling);
+/* The table of numbers that vary, below these heads. */
+#define CZ_DRAW_HEADS(number) number ";distribution;range;>values"
+void cz_sample_begin_draws(CzReportTable *table, const char *heads, int n_draw, const CzDraw *draw);
 
 #endif

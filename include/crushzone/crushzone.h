@@ -23,6 +23,7 @@
 #define CRUSHZONE_CRUSHZONE_H
 
 #include "crushzone/benchmark.h"
+#include "crushzone/challenge.h"
 #include "crushzone/channel.h"
 #include "crushzone/evaluate.h"
 #include "crushzone/explain.h"

@@ -9,6 +9,7 @@
 #include <stdio.h>
 
 #include "crushzone/benchmark.h"
+#include "crushzone/challenge.h"
 #include "crushzone/explain.h"
 #include "crushzone/fit.h"
 #include "crushzone/optimise.h"
@@ -61,6 +62,7 @@ typedef enum CzReportKind {
     CZ_REPORT_SWEEP,        /* sweep */
     CZ_REPORT_SAMPLE,       /* problem, sampling */
     CZ_REPORT_PARETO,       /* problem, pareto */
+    CZ_REPORT_CHALLENGE,    /* problem, challenge */
     CZ_REPORT_VERIFICATION, /* problem, verification */
     CZ_REPORT_BENCHMARK,    /* problem, benchmark */
     CZ_REPORT_EXPLANATION,  /* problem, explanation */
@@ -81,6 +83,7 @@ typedef struct CzReport {
     const CzSweep *sweep;
     const CzSampling *sampling;
     const CzPareto *pareto;
+    const CzChallenge *challenge;
     const CzVerification *verification;
     const CzBenchmark *benchmark;
     const CzExplanation *explanation;
@@ -99,9 +102,10 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_json(const CzReport *report, FILE 
 
 /* Tables for a terminal, of all but fits and mistakes: the worst member of a family of scenarios;
  * before and after a search, violated constraints, and the new values as YAML; the points of a
- * sweep over one path or the map over two; the checks of a sampling; the values with the largest
- * changes of a verification; the differences of a comparison. `colour` allows escape codes. Status:
- * CZ_STATUS_NO_MEMORY when rows are missing, which the text also reports. */
+ * sweep over one path or the map over two; the checks of a sampling; the weak points of a
+ * challenge; the values with the largest changes of a verification; the differences of a
+ * comparison. `colour` allows escape codes. Status: CZ_STATUS_NO_MEMORY when rows are missing,
+ * which the text also reports. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_table(const CzReport *report, bool colour,
                                                     FILE *stream, CzError *error);
 
@@ -115,9 +119,9 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_page(const CzReport *report, FILE 
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_front(const CzPareto *pareto, FILE *stream,
                                                     CzError *error);
 
-/* The whole result folder of a run, a search, a sweep, a sampling or a front: to a temporary name
- * first, renamed at the end; replaces only a folder of our own. Needs runs that were kept.
- * Statuses: CZ_STATUS_OUTPUT, CZ_STATUS_NO_MEMORY. */
+/* The whole result folder of a run, a search, a sweep, a sampling, a front or a challenge: to a
+ * temporary name first, renamed at the end; replaces only a folder of our own. Needs runs that were
+ * kept. Statuses: CZ_STATUS_OUTPUT, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_folder(const CzReport *report, const char *folder,
                                                      CzError *error);
 

@@ -244,6 +244,7 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
     CZ_TRY(read_time(arguments, CZ_OPTION_MAX_TIME, &arguments->max_time, error));
     CZ_TRY(read_whole(arguments, CZ_OPTION_ROUNDS, 1, 10000, &arguments->rounds, error));
     CZ_TRY(read_whole(arguments, CZ_OPTION_SEED, 0, 2000000000, &arguments->seed, error));
+    CZ_TRY(read_whole(arguments, CZ_OPTION_RUNS, 1, 1000000, &arguments->n_run, error));
     CZ_TRY(read_whole(arguments, CZ_OPTION_SAMPLES, 1, 1000000, &arguments->n_sample, error));
     CZ_TRY(read_shard(arguments, error));
     CZ_TRY(read_whole(arguments, CZ_OPTION_STAGES, 0, 100, &n_stage, error));

@@ -62,6 +62,7 @@ typedef struct CzArguments {
     long seed;          /* -1: that of the file */
     double max_time;    /* [s]; 0 for none */
     long rounds;        /* 0: the default */
+    long n_run;         /* 0: the default */
     long n_sample;      /* 0: that of the file */
     int shard, n_shard; /* 1 and 1: all samples */
     int n_point;        /* 0: the default */

@@ -5,6 +5,7 @@ set(CZ_SOURCES_cli
     ../base/suggest.c
     ../base/text.c
     arguments.c
+    command_challenge.c
     command_fit.c
     command_figures.c
     command_new.c

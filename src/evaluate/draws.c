@@ -257,6 +257,25 @@ CzStatus cz_draws_list(const CzProblem *problem, int scenario, CzArena *arena, i
     return CZ_OK;
 }
 
+CzStatus cz_draw_of_span(const CzProblem *problem, int scenario, const CzSpan *span, CzDraw *draw,
+                         CzError *error) {
+    CzTargets targets = {0};
+    CZ_TRY(cz_problem_place_failure(
+        problem, &span->path,
+        cz_problem_find_changed(problem, scenario, span->path, &targets, error), error));
+    *draw = (CzDraw){.name = span->name != NULL ? span->name : span->path,
+                     .n_path = 1,
+                     .path = &span->path,
+                     .effect = CZ_DRAW_VALUE,
+                     .unit = symbol_of(suffix_of(span->path)),
+                     .distribution = "envelope",
+                     .low = span->min,
+                     .high = span->max,
+                     .n_place = targets.n};
+    free(targets.target);
+    return CZ_OK;
+}
+
 /* ---- values ---------------------------------------------------------------------------------- */
 
 /* Value of a draw at u within (0, 1). */

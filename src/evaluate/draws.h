@@ -12,6 +12,10 @@
 CZ_MUST_CHECK CzStatus cz_draws_list(const CzProblem *problem, int scenario, CzArena *arena,
                                      int *n_draw, CzDraw **draw, CzError *error);
 
+/* A span of the envelope as a draw. Statuses as above. */
+CZ_MUST_CHECK CzStatus cz_draw_of_span(const CzProblem *problem, int scenario, const CzSpan *span,
+                                       CzDraw *draw, CzError *error);
+
 /* Fills the values of all draws in n samples; value is (n x n_draw). Statuses: CZ_OK,
  * CZ_STATUS_INPUT for more draws than the method has, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_draws_fill(const CzProblem *problem, long seed, int n, int n_draw,

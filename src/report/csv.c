@@ -326,14 +326,19 @@ static void put_size(Table *table, double margin) {
 }
 
 /* A check in one sample: its margin, or a word. */
-static void put_margin(Table *table, const CzSampledCheck *check, double margin,
-                       CzVerdict verdict) {
-    if (check->is_flag)
+static void put_margin(Table *table, bool is_flag, double margin, CzVerdict verdict) {
+    if (is_flag)
         put_text(table, verdict == CZ_VERDICT_NOT_CHECKED ? NULL
                         : cz_verdict_passes(verdict)      ? CZ_SAMPLE_PASSES
                                                           : CZ_SAMPLE_FAILS);
     else
         put_size(table, margin);
+}
+
+static void put_check_head(Table *table, const char *check, const char *scenario) {
+    char name[2 * CZ_LABEL_ROOM + CZ_NAME_ROOM];
+    snprintf(name, sizeof name, "%s, %s", check, scenario);
+    put_text(table, name);
 }
 
 static void put_sample(Table *table, const CzSampling *sampling, int k) {
@@ -349,7 +354,7 @@ static void put_sample(Table *table, const CzSampling *sampling, int k) {
     for (int d = 0; d < sampling->n_draw; d++)
         put_full(table, cz_sample_value(sampling, k, d));
     for (int c = 0; c < sampling->n_check; c++)
-        put_margin(table, &sampling->check[c], cz_sample_margin(sampling, k, c),
+        put_margin(table, sampling->check[c].is_flag, cz_sample_margin(sampling, k, c),
                    cz_sample_verdict(sampling, k, c));
     put_text(table, sample->message);
     end_row(table);
@@ -363,11 +368,8 @@ void cz_csv_write_samples(const CzReport *report, FILE *stream) {
         put_text(&table, heads[i]);
     for (int d = 0; d < sampling->n_draw; d++)
         put_text(&table, sampling->draw[d].name);
-    for (int c = 0; c < sampling->n_check; c++) {
-        char name[2 * CZ_LABEL_ROOM + CZ_NAME_ROOM];
-        snprintf(name, sizeof name, "%s, %s", sampling->check[c].name, sampling->check[c].scenario);
-        put_text(&table, name);
-    }
+    for (int c = 0; c < sampling->n_check; c++)
+        put_check_head(&table, sampling->check[c].name, sampling->check[c].scenario);
     put_text(&table, "message");
     end_row(&table);
     for (int k = 0; k < sampling->n_sample; k++)
@@ -407,4 +409,43 @@ void cz_csv_write_pareto(const CzReport *report, FILE *stream) {
             put_exact(&table, point->x != NULL ? point->x[k] : NAN);
         end_row(&table);
     }
+}
+
+/* ---- challenge ---- */
+
+static void put_challenge_point(Table *table, const CzChallenge *challenge, int k) {
+    const CzChallengePoint *point = &challenge->point[k];
+    const long row = (long)k * challenge->n_check;
+    const CzChallengedCheck *check = point->check >= 0 ? &challenge->check[point->check] : NULL;
+    put_exact(table, k + 1);
+    put_text(table, point->phase);
+    put_text(table, cz_sample_state_text(point->state));
+    put_text(table, cz_verdict_text(point->verdict));
+    put_size(table, point->margin);
+    put_text(table, check != NULL ? check->name : NULL);
+    put_text(table, check != NULL ? check->scenario : NULL);
+    for (int d = 0; d < challenge->n_draw; d++)
+        put_full(table, cz_challenge_value(challenge, k, d));
+    for (int c = 0; c < challenge->n_check; c++)
+        put_margin(table, challenge->check[c].is_flag, challenge->margin[row + c],
+                   challenge->verdict[row + c]);
+    put_text(table, point->message);
+    end_row(table);
+}
+
+void cz_csv_write_challenge(const CzReport *report, FILE *stream) {
+    static const char *const heads[] = {"point",  "phase", "state",   "verdict",
+                                        "margin", "check", "scenario"};
+    const CzChallenge *challenge = report->challenge;
+    Table table = table_of(cz_report_options_of(report), stream);
+    for (size_t i = 0; i < sizeof heads / sizeof *heads; i++)
+        put_text(&table, heads[i]);
+    for (int d = 0; d < challenge->n_draw; d++)
+        put_text(&table, challenge->draw[d].name);
+    for (int c = 0; c < challenge->n_check; c++)
+        put_check_head(&table, challenge->check[c].name, challenge->check[c].scenario);
+    put_text(&table, "message");
+    end_row(&table);
+    for (int k = 0; k < challenge->n_point; k++)
+        put_challenge_point(&table, challenge, k);
 }

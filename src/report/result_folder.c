@@ -1,15 +1,18 @@
 /* The files of a result folder: summary and checks at the top, histories per scenario; of a sweep,
- * its points; of a sampling, its samples; of a front, its points and their designs. */
+ * its points; of a sampling, its samples; of a front, its points and their designs; of a challenge,
+ * its points and counter-examples. */
 #include "crushzone/report.h"
 
 #include "base/error.h"
 #include "text/node.h"
 #include "problem/problem.h"
+#include "report/challenge_files.h"
 #include "report/csv.h"
 #include "report/folder.h"
 #include "report/options.h"
 #include "report/overlay.h"
 #include "report/page.h"
+#include "report/page_challenge.h"
 #include "report/page_sample.h"
 #include "report/page_pareto.h"
 #include "report/page_sweep.h"
@@ -58,7 +61,12 @@ typedef enum Content {
     PARETO_POINTS,
     PARETO_REPORT,
     FRONT,
-    POINT
+    POINT,
+    CHALLENGE,
+    CHALLENGE_POINTS,
+    CHALLENGE_REPORT,
+    COUNTER_EXAMPLE,
+    COUNTER_EXAMPLES
 } Content;
 
 typedef struct File {
@@ -160,6 +168,7 @@ static CzStatus write_content(const Results *results, Content content, FILE *str
     case SWEEP:
     case SAMPLE:
     case PARETO:
+    case CHALLENGE:
         return cz_report_write_json(report, stream, error);
     case OVERLAY:
         return cz_overlay_write(report, results->folder, stream, error);
@@ -176,6 +185,15 @@ static CzStatus write_content(const Results *results, Content content, FILE *str
         return cz_page_write_sample(report, stream, error);
     case REPLAY:
         cz_replay_write(report, results->sample, results->folder, stream);
+        break;
+    case CHALLENGE_REPORT:
+        return cz_page_write_challenge(report, stream, error);
+    case COUNTER_EXAMPLE:
+    case COUNTER_EXAMPLES:
+        cz_challenge_write_file(report, content == COUNTER_EXAMPLES, results->folder, stream);
+        break;
+    case CHALLENGE_POINTS:
+        cz_csv_write_challenge(report, stream);
         break;
     case SAMPLES:
         cz_csv_write_samples(report, stream);
@@ -316,6 +334,17 @@ static CzStatus write_front(CzFolder *folder, Results *results, CzError *error) 
     return CZ_OK;
 }
 
+/* The files of a challenge; counter-examples where there is one and the problem is in a file. */
+static CzStatus write_challenge(CzFolder *folder, const Results *results, CzError *error) {
+    static const File files[] = {{"challenge.json", CHALLENGE},
+                                 {"challenge.csv", CHALLENGE_POINTS},
+                                 {"report.html", CHALLENGE_REPORT},
+                                 {CZ_COUNTER_EXAMPLE, COUNTER_EXAMPLE},
+                                 {CZ_COUNTER_EXAMPLES, COUNTER_EXAMPLES}};
+    return write_files(folder, cz_challenge_has_files(results->report) ? 5 : 3, files, results,
+                       error);
+}
+
 static CzStatus write_all(CzFolder *folder, Results *results, CzError *error) {
     static const File files[] = {{"summary.json", SUMMARY},   {"checks.csv", CHECKS},
                                  {"resolved.yaml", RESOLVED}, {"run.log", RUN_LOG},
@@ -329,6 +358,8 @@ static CzStatus write_all(CzFolder *folder, Results *results, CzError *error) {
         return write_sampling(folder, results, error);
     if (results->report->kind == CZ_REPORT_PARETO)
         return write_front(folder, results, error);
+    if (results->report->kind == CZ_REPORT_CHALLENGE)
+        return write_challenge(folder, results, error);
     CZ_TRY(write_files(folder, results->report->outcome != NULL ? 7 : 4, files, results, error));
     if (results->report->outcome != NULL && cz_report_options_of(results->report)->journal != NULL)
         CZ_TRY(write_file(folder, "history.jsonl", JOURNAL, results, error));

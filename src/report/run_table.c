@@ -16,17 +16,19 @@ static double given_or(double given, double otherwise) {
     return isnan(given) ? otherwise : given;
 }
 
-/* Speeds of the two trains of a scenario by the file, such as "36 km/h -> 0 km/h". */
+/* Speeds of the two trains of a scenario by the file, with its changes, such as "36 km/h -> 0
+ * km/h". */
 static void write_speeds(const CzProblem *problem, const char *name, FILE *stream) {
     const CzInput *input = cz_problem_input(problem);
     const CzTrain *train[2] = {cz_input_train(input, NULL, 0), cz_input_train(input, NULL, 1)};
     double speed[2] = {NAN, NAN};
     for (int i = 0; i < input->n_scenarios; i++) {
-        const CzScenario *scenario = &input->scenarios[i];
-        if (strcmp(scenario->name, name) != 0)
+        if (strcmp(input->scenarios[i].name, name) != 0)
             continue;
+        const CzInput *changed = cz_problem_input(cz_problem_in_scenario(problem, i));
+        const CzScenario *scenario = &changed->scenarios[i];
         for (int side = 0; side < 2; side++)
-            train[side] = cz_input_train(input, scenario, side);
+            train[side] = cz_input_train(changed, scenario, side);
         speed[0] = scenario->speed;
         speed[1] = scenario->partner_speed;
     }

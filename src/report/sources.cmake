@@ -2,6 +2,8 @@
 set(CZ_SOURCES_report
     standalone_figure.c
     benchmark.c
+    challenge_files.c
+    challenge_table.c
     chart_curves.c
     chart_draw.c
     charts.c
@@ -24,6 +26,7 @@ set(CZ_SOURCES_report
     overlay.c
     page.c
     page_budget.c
+    page_challenge.c
     page_checks.c
     page_collect.c
     page_compare.c

@@ -7,6 +7,7 @@
 
 void cz_run_write_table(const CzReport *report, CzTerminal *terminal);
 void cz_outcome_write_table(const CzReport *report, CzTerminal *terminal);
+void cz_challenge_write_table(const CzReport *report, CzTerminal *terminal);
 void cz_sample_write_table(const CzReport *report, CzTerminal *terminal);
 void cz_sweep_write_table(const CzReport *report, CzTerminal *terminal);
 void cz_pareto_write_table(const CzReport *report, CzTerminal *terminal);

@@ -30,6 +30,8 @@ sample() { printf "uncertainty: {parameters: [{path: trains.A.speed_km_h, tolera
 check "the document of sample follows its schema" sample
 pareto() { "$C" pareto "$SOURCE/problems/length-or-force.yaml" --evaluations 20 -n 3 -q --minimise margin --minimise design.installed_length_mm -o front --json >pareto.json 2>/dev/null; follows pareto pareto.json front/pareto.json; }
 check "the document of pareto follows its schema" pareto
+challenge() { "$C" challenge sample.yaml --runs 4 --json >challenge.json 2>/dev/null; follows challenge challenge.json; }
+check "the document of challenge follows its schema" challenge
 explain() { "$C" explain "$climbs" --json >explain.json 2>/dev/null; follows explanation explain.json; }
 check "the document of explain follows its schema" explain
 verify() { "$C" verify "$SOURCE/problems/first-collision.yaml" $short --json >verify.json 2>/dev/null; follows verification verify.json; }

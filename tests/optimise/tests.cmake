@@ -10,3 +10,4 @@ cz_test(test_replay optimise test_replay.c tests/evaluate/stand_in.c tests/evalu
 cz_test(test_pareto optimise test_pareto.c tests/evaluate/stand_in.c tests/evaluate/small_problem.c)
 cz_test(test_linear_program optimise test_linear_program.c)
 cz_test(test_bench_designs optimise test_bench_designs.c)
+cz_test(test_challenge optimise test_challenge.c)

@@ -18,6 +18,7 @@ include_arrows() {
                     for (i = 1; i <= n; i++) { rank[order[i]] = i; public[order[i]] = order[i] }
                     public["status"] = public["names"] = "base"
                     public["channel"] = "problem"
+                    public["challenge"] = "optimise"
                     public["benchmark"] = public["sample"] = public["sweep"] = public["explain"] = public["verify"] = "evaluate"
                     public["pareto"] = "optimise"
                     public["crushzone"] = "report"

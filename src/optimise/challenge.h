@@ -1,0 +1,83 @@
+/* Parts of a challenge, and its steps. */
+#ifndef CZ_OPTIMISE_CHALLENGE_H
+#define CZ_OPTIMISE_CHALLENGE_H
+
+#include <stdatomic.h>
+
+#include "crushzone/challenge.h"
+#include "evaluate/cases.h"
+
+/* Memory that a challenge owns besides its arrays, and what its steps share. */
+typedef struct CzChallengeParts {
+    CzArena arena; /* of draws and texts */
+    CzChallengeOptions options;
+    const double *x; /* the design; NULL for the file's own values */
+    CzCases cases;
+    CzCaseChecks checks;      /* the checks of the challenge */
+    double *u;                /* points scaled to 0..1 (room x n_draw) */
+    atomic_int n_done;        /* points that were run, for the progress */
+    atomic_flag is_reporting; /* a thread is in the progress function */
+} CzChallengeParts;
+
+/* ---- for the robust optimiser ---- */
+
+/* Number of changes of a point, and the changes of a scenario that has its values, as a case has
+ * them (problem/problem.h). Their paths are borrowed from the challenge. */
+int cz_challenge_n_change(const CzChallenge *challenge);
+void cz_challenge_changes(const CzChallenge *challenge, int point, CzCaseChange *change);
+
+/* Name of a weak point's scenario in a file, such as "25-km-h-challenge-1", unlike those of the
+ * problem. */
+static inline void cz_weak_point_name(const CzChallenge *challenge, int weak,
+                                      char name[CZ_NAME_ROOM]) {
+    int scenario = 0;
+    while (challenge->scenario[scenario] != challenge->weak[weak].scenario)
+        scenario++;
+    cz_case_name(&challenge->parts->cases, scenario, weak, name);
+}
+
+/* ---- points (challenge_points.c) ---- */
+
+/* Value of a draw at u within 0..1; of a list the nearest number. */
+double cz_challenge_value_at(const CzDraw *draw, double u);
+
+/* A case as it is judged. */
+typedef struct CzJudgedCase {
+    CzSampleState state;
+    CzVerdict verdict;
+    bool beyond_validity;
+    int check;     /* the worst, by its place in the list of checks; -1 for none */
+    int n_fail;    /* checks that fail */
+    char *message; /* why a run failed or the case is invalid; NULL otherwise */
+} CzJudgedCase;
+
+/* Judges the k-th case of a bench; result is (n_check), with verdict NOT_CHECKED where the case has
+ * no such check. Status: CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_challenge_judge(const CzChallenge *challenge, const CzCaseBench *bench,
+                                          const CzEvaluation *evaluation, int k,
+                                          CzCheckResult *result, CzJudgedCase *judged,
+                                          CzError *error);
+
+/* Runs n points from `first` on as a search does, in one thread or in several: `u` has been filled.
+ * Points that an interruption left out have the state CZ_SAMPLE_NOT_RUN. Statuses: CZ_OK,
+ * CZ_STATUS_INTERRUPTED, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_challenge_run(CzChallenge *challenge, int first, int n, CzError *error);
+CZ_MUST_CHECK CzStatus cz_challenge_run_batch(CzChallenge *challenge, int first, int n,
+                                              CzError *error);
+
+/* Moves a point to an unused place, and drops one. */
+void cz_challenge_move(CzChallenge *challenge, int from, int to);
+void cz_challenge_drop(CzChallenge *challenge, int point);
+
+/* ---- search (challenge_search.c) ---- */
+
+/* Searches until all points are used or nothing is left to try; n_point, point, value and margin
+ * are filled. Statuses: as above. */
+CZ_MUST_CHECK CzStatus cz_challenge_search(CzChallenge *challenge, CzError *error);
+
+/* ---- weak points (challenge_weak.c) ---- */
+
+/* Selects points and runs them in full. Statuses: CZ_OK, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_challenge_find_weak(CzChallenge *challenge, CzError *error);
+
+#endif

@@ -1,0 +1,51 @@
+/* Stand-ins for pages: one line in place of each. */
+#include "report/page.h"
+#include "report/page_challenge.h"
+#include "report/page_pareto.h"
+#include "report/page_sample.h"
+#include "report/page_sweep.h"
+
+CzStatus cz_page_write_run(const CzReport *report, int scenario, bool is_top, FILE *stream,
+                           CzError *error) {
+    (void)report;
+    (void)error;
+    fprintf(stream, "report of %d%s\n", scenario, is_top ? ", top" : "");
+    return CZ_OK;
+}
+
+CzStatus cz_page_write_pareto(const CzPareto *pareto, const char *title, FILE *stream,
+                              CzError *error) {
+    (void)pareto;
+    (void)title;
+    (void)error;
+    fputs("report of a front\n", stream);
+    return CZ_OK;
+}
+
+CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error) {
+    (void)sweep;
+    (void)error;
+    fputs("report of a sweep\n", stream);
+    return CZ_OK;
+}
+
+CzStatus cz_page_write_challenge(const CzReport *report, FILE *stream, CzError *error) {
+    (void)report;
+    (void)stream;
+    (void)error;
+    return CZ_OK;
+}
+
+CzStatus cz_page_write_sample(const CzReport *report, FILE *stream, CzError *error) {
+    (void)report;
+    (void)stream;
+    (void)error;
+    return CZ_OK;
+}
+
+CzStatus cz_page_write_outcome(const CzReport *report, FILE *stream, CzError *error) {
+    (void)report;
+    (void)error;
+    fputs("report of a search\n", stream);
+    return CZ_OK;
+}

@@ -66,12 +66,22 @@ static void write_checks(CzMarkup *markup, const CzSampling *sampling, const int
 
 typedef void DrawCheck(const CzSampling *sampling, int check, CzMarkup *markup);
 
-/* Figures of the first checks in the order that have margins. */
+/* Whether the i-th check of the order is the first of its name with margins: the worst scenario. */
+static bool is_drawn(const CzSampling *sampling, const int *order, int i) {
+    const CzSampledCheck *check = &sampling->check[order[i]];
+    bool is_first = has_figures(check);
+    for (int k = 0; k < i && is_first; k++)
+        is_first = !has_figures(&sampling->check[order[k]]) ||
+                   strcmp(sampling->check[order[k]].name, check->name) != 0;
+    return is_first;
+}
+
+/* Figures of the worst checks, one of each name. */
 static void write_figures(CzMarkup *markup, const CzSampling *sampling, const int *order, int most,
                           DrawCheck *draw) {
     cz_markup_write(markup, "<div class='figures'>");
     for (int i = 0, n = 0; i < sampling->n_check && n < most; i++)
-        if (has_figures(&sampling->check[order[i]])) {
+        if (is_drawn(sampling, order, i)) {
             draw(sampling, order[i], markup);
             n++;
         }
@@ -139,8 +149,9 @@ static void write_parts(CzMarkup *markup, const CzReport *report, const int *ord
     write_nav(markup);
     write_checks(markup, sampling, order);
     cz_markup_write(markup,
-                    "<section id='margins'>\n<h2>Margins</h2>\n<p>Those that fail most often, or "
-                    "have the smallest margins. Margins below -100 %% are drawn at -100 %%, runs "
+                    "<section id='margins'>\n<h2>Margins</h2>\n<p>The checks that fail most often, "
+                    "or have the smallest margins, each in its worst scenario. Margins below -100 "
+                    "%% are drawn at -100 %%, runs "
                     "that failed too.</p>");
     write_figures(markup, sampling, order, MOST_HISTOGRAMS, cz_sample_draw_histogram);
     cz_markup_write(markup,

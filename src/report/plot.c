@@ -194,7 +194,8 @@ static void write_x_axis(const CzPlot *plot, const Frame *frame, CzMarkup *marku
 }
 
 static void write_y_axis(const CzPlot *plot, const Frame *frame, CzMarkup *markup) {
-    const double step = cz_plot_round_step(frame->y_max - frame->y_min, 6);
+    const double fine = cz_plot_round_step(frame->y_max - frame->y_min, 6);
+    const double step = plot->counts ? fmax(fine, 1) : fine;
     for (double i = ceil(frame->y_min / step - 1e-6); i * step <= frame->y_max + 1e-6 * step; i++) {
         char text[CZ_FIGURE_ROOM];
         const double y = paper_y(frame, i * step);

@@ -24,7 +24,7 @@ static void format_check(const CzSampledCheck *check, size_t room, char *text) {
 
 /* ---- histogram ---- */
 
-enum { N_BIN = 24, MOST_BINS = 3 * N_BIN };
+enum { FEWEST_BINS = 8, MOST_BINS = 72 };
 
 typedef struct Histogram {
     double from, step; /* [%] */
@@ -41,7 +41,8 @@ static Histogram histogram_of(const CzSampling *sampling, int check) {
     }
     if (!(least <= most))
         return histogram;
-    histogram.step = cz_plot_round_step(fmax(most - least, 0.1), N_BIN);
+    const double n_bin = fmin(fmax(2 * sqrt(sampling->n_run), FEWEST_BINS), MOST_BINS / 3.0);
+    histogram.step = cz_plot_round_step(fmax(most - least, 0.1), (int)n_bin);
     histogram.from = floor(least / histogram.step) * histogram.step;
     for (int k = 0; k < sampling->n_sample; k++) {
         const double place = (percent_of(sampling, k, check) - histogram.from) / histogram.step;
@@ -93,6 +94,7 @@ void cz_sample_draw_histogram(const CzSampling *sampling, int check, CzMarkup *m
                          .n_band = histogram.from < 0,
                          .band = &band,
                          .from_zero = true,
+                         .counts = true,
                          .height = 150};
     cz_plot_write_figure(&plot, markup);
 }

@@ -2,7 +2,7 @@
 . "$SOURCE/tests/support/cases.sh"
 
 folders="metro pair rigid search long"
-pages="swept map compared"
+pages="swept map sampled compared"
 
 # Counts every case of report.js as skipped.
 skip_all() { # skip_all REASON
@@ -49,9 +49,11 @@ check "crushzone optimises" sh -c '"$PROGRAM" optimise two-trains.yaml --evaluat
 check "crushzone runs trains of eight cars" long_metro
 swept() { "$PROGRAM" sweep "$SOURCE/problems/two-cars-25kmh.yaml" --vary trains.A.speed_km_h=10:50:9 -o swept && mv swept/report.html swept.html; }
 map() { "$PROGRAM" sweep two-trains.yaml --vary trains.A.speed_km_h=10:40:13 --vary 'parts.inner-end.coupler.tube.stages[0].force_kN=500:1200:8' -o map && mv map/report.html map.html; }
+sampled() { sed 's/^extends: .*/extends: two-trains.yaml/' "$SOURCE/examples/scatter.yaml" >scatter.yaml && { "$PROGRAM" sample scatter.yaml -n 100 -o sampled || [ $? = 1 ]; } && mv sampled/report.html sampled.html; }
 compared() { "$PROGRAM" compare rigid search/optimised.yaml -o compared.html; }
 check "crushzone sweeps the speed" swept
 check "crushzone maps two values" map
+check "crushzone draws samples" sampled
 check "crushzone compares two designs" compared
 
 CHROMIUM=$(command -v chromium) NODE_PATH=$modules/node_modules node "$SOURCE/tests/browser/report.js" $folders $(printf '%s.html ' $pages) >cases.txt 2>&1

@@ -282,7 +282,7 @@ async function prints(page) {
   if (pdf.length < 50000) return `only ${pdf.length} bytes`;
 }
 
-/* A page without cursor: of a sweep, a map, a comparison. */
+/* A page without cursor: of a sweep, a map, samples, a comparison. */
 async function lookAtPage(browser, file) {
   const name = path.basename(file, '.html'), page = await open(browser, file);
   const n = await page.locator('figure svg').count();

@@ -139,6 +139,8 @@ typedef struct CzAim {
     double bound;         /* that limit, in the metric's unit */
 } CzAim;
 
+typedef struct CzEvaluator CzEvaluator;
+
 typedef struct CzEvaluatorOptions {
     int n_job;               /* threads; 0: one per processor */
     double step_factor;      /* factor on every time step; 1 for production runs */
@@ -147,10 +149,10 @@ typedef struct CzEvaluatorOptions {
                                 then NOT CHECKED */
     int first_scenario;      /* scenarios before this one, counted from 0, are left out likewise */
     const CzAim *aim;        /* NULL: objective and constraints of the file */
+    const CzEvaluator *beside; /* its tracks are used where they are the same, which saves their
+                                  set-up; it must live longer; NULL for none */
 } CzEvaluatorOptions;
 CZ_API CzEvaluatorOptions cz_evaluator_options_default(void);
-
-typedef struct CzEvaluator CzEvaluator;
 
 /* The problem must outlive the evaluator. A problem without `optimise:` has no variables and can
  * still be checked. Statuses: CZ_OK, CZ_STATUS_INPUT, CZ_STATUS_NO_MEMORY. */

@@ -111,6 +111,7 @@ CzStatus cz_case_bench_build(const CzCases *cases, int n, const int *number, con
             : cz_no_memory(error, "the cases");
     free_made(&made);
     options.n_job = 1;
+    options.beside = cases->beside;
     options.first_scenario = cz_problem_n_scenario(cases->problem);
     if (status == CZ_OK)
         status = cz_evaluator_build(bench->problem, &options, &bench->evaluator, error);

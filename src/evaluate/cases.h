@@ -14,9 +14,11 @@ typedef struct CzCases {
     int n_scenario;
     const int *scenario; /* scenarios that are changed (n_scenario) */
     int n_draw;
-    const CzDraw *draw; /* (n_draw) */
-    const char *word;   /* in the names of cases, such as "sample" */
-    int n_earlier;      /* cases of this word among the scenarios of the problem */
+    const CzDraw *draw;        /* (n_draw) */
+    const char *word;          /* in the names of cases, such as "sample" */
+    int n_earlier;             /* cases of this word among the scenarios of the problem */
+    const CzEvaluator *beside; /* whose tracks the cases use where they are the same; NULL for
+                                  none */
 } CzCases;
 
 /* Lists the scenarios of these names or families; where there are no names all but overload cases

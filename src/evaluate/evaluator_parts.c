@@ -50,10 +50,9 @@ static CzStatus build_variants(CzEvaluator *evaluator, CzError *error) {
         const bool is_own = evaluator->n_variant == evaluator->own;
         if (!cz_design_settings(design, evaluator->n_variant, NULL, arena, &settings))
             return cz_no_memory(error, "the choices");
-        const CzStatus status =
-            cz_variant_build(evaluator->problem, is_own ? NULL : &settings, evaluator->n_scene,
-                             evaluator->scene, evaluator->only, evaluator->first_scenario,
-                             &evaluator->variant[evaluator->n_variant], error);
+        const CzVariantScenes scenes = cz_evaluator_scenes(evaluator);
+        const CzStatus status = cz_variant_build(&scenes, is_own ? NULL : &settings,
+                                                 &evaluator->variant[evaluator->n_variant], error);
         if (status != CZ_OK)
             return is_own ? status : place_combination(evaluator, &settings, status, error);
     }
@@ -192,6 +191,7 @@ CzStatus cz_evaluator_build(const CzProblem *problem, const CzEvaluatorOptions *
     built->problem = problem;
     built->n_job = given.n_job > 0 ? given.n_job : cz_processor_count();
     built->first_scenario = given.first_scenario;
+    built->beside = given.beside;
     built->manner = (CzManner){.step_factor = given.step_factor, .integrator = given.integrator};
     const CzStatus status = build(built, &given, error);
     if (status != CZ_OK) {

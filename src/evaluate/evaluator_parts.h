@@ -15,13 +15,14 @@ struct CzEvaluator {
     CzManner manner; /* of runs outside a search */
     CzObstacles obstacles;
     int n_scene;
-    CzScene *scene;        /* (n_scene) */
-    const char *only;      /* the only scenario that is run; NULL for all */
-    int first_scenario;    /* scenarios before this one are not run */
-    int n_variant;         /* one per combination of choices, 1 without any */
-    CzVariant *variant;    /* (n_variant) */
-    int own;               /* variant of the file as written */
-    CzModel *const *model; /* its models; NULL for scenarios left out (n_scene) */
+    CzScene *scene;            /* (n_scene) */
+    const char *only;          /* the only scenario that is run; NULL for all */
+    int first_scenario;        /* scenarios before this one are not run */
+    const CzEvaluator *beside; /* whose tracks are used where they are the same; NULL for none */
+    int n_variant;             /* one per combination of choices, 1 without any */
+    CzVariant *variant;        /* (n_variant) */
+    int own;                   /* variant of the file as written */
+    CzModel *const *model;     /* its models; NULL for scenarios left out (n_scene) */
     int n_vehicle, n_variation;
     const CzVehicle *vehicles; /* its vehicles in each variation (n_variation x n_vehicle) */
     double *length; /* simulated time of the last run of each scenario, 0 before the first: for the
@@ -40,6 +41,17 @@ struct CzEvaluator {
     void *own_data;
     const volatile sig_atomic_t *stop; /* a flag that ends an evaluation; NULL when none */
 };
+
+/* Scenarios for the next variant, beside the first one. */
+static inline CzVariantScenes cz_evaluator_scenes(const CzEvaluator *evaluator) {
+    const CzEvaluator *of = evaluator->n_variant > 0 ? evaluator : evaluator->beside;
+    return (CzVariantScenes){.problem = evaluator->problem,
+                             .n = evaluator->n_scene,
+                             .scene = evaluator->scene,
+                             .only = evaluator->only,
+                             .first = evaluator->first_scenario,
+                             .beside = of != NULL ? &of->variant[0] : NULL};
+}
 
 /* The vehicles of a scenario among those of all variations of a design. */
 static inline const CzVehicle *cz_vehicles_in(const CzEvaluator *evaluator,

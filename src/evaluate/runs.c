@@ -41,13 +41,12 @@ static CzStatus reread(int index, void *data, CzError *error) {
     const CzEvaluator *evaluator = block->evaluator;
     CzVariant *variant = &block->own[index];
     CzArena arena = {0};
+    const CzVariantScenes scenes = cz_evaluator_scenes(evaluator);
     CzVariantSettings settings;
     CzStatus status;
     const double *x = block->x + index * evaluator->design.n_variable;
     if (cz_design_settings(&evaluator->design, 0, x, &arena, &settings))
-        status =
-            cz_variant_build(evaluator->problem, &settings, evaluator->n_scene, evaluator->scene,
-                             evaluator->only, evaluator->first_scenario, variant, error);
+        status = cz_variant_build(&scenes, &settings, variant, error);
     else
         status = cz_no_memory(error, "the settings of a design");
     block->is_refused[index] = status == CZ_STATUS_INPUT;

@@ -14,10 +14,12 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "evaluate/tasks.h"
+#include "simulate/batch.h"
 
 enum {
-    SAMPLES_PER_TASK = 4,
-    TASKS_PER_JOB = 2 /* of a wave */
+    FEWEST_PER_TASK = 4, /* samples, which share the set-up of the track (measured) */
+    MOST_PER_TASK = 16,  /* in memory at a time (ours) */
+    TASKS_PER_JOB = 2    /* of a wave */
 };
 
 /* Common data of all samples. */
@@ -27,6 +29,7 @@ typedef struct Sampler {
     int n_due;
     int *due;  /* samples to run (n_due) */
     int first; /* of the wave, in that list */
+    int n_per_task;
 } Sampler;
 
 CzSampleOptions cz_sample_options_default(void) {
@@ -90,8 +93,8 @@ static CzStatus run_samples(const Sampler *sampler, int n, const int *sample, Cz
 
 static CzStatus run_task(int index, void *data, CzError *error) {
     const Sampler *sampler = data;
-    const int first = sampler->first + index * SAMPLES_PER_TASK, left = sampler->n_due - first;
-    const int n = left < SAMPLES_PER_TASK ? left : SAMPLES_PER_TASK;
+    const int first = sampler->first + index * sampler->n_per_task, left = sampler->n_due - first;
+    const int n = left < sampler->n_per_task ? left : sampler->n_per_task;
     const CzStatus status = run_samples(sampler, n, sampler->due + first, error);
     return status == CZ_STATUS_INTERRUPTED ? CZ_OK : status;
 }
@@ -100,15 +103,28 @@ static bool is_stopped(const CzSampleOptions *options) {
     return options->stop != NULL && *options->stop != 0;
 }
 
+/* As many samples as fill the lanes, but not so many that a thread has none. */
+static int count_per_task(const Sampler *sampler, int n_job) {
+    const CzSamplingParts *parts = sampler->sampling->parts;
+    const CzCases *cases = &parts->cases;
+    const CzModel *model = parts->evaluator->model[cases->scenario[0]];
+    const int n_fill = model != NULL ? cz_simulate_batch_width(model) / cases->n_scenario : 0;
+    const int n_even = (sampler->n_due + n_job - 1) / n_job;
+    const int n = n_fill < MOST_PER_TASK ? n_fill : MOST_PER_TASK;
+    const int at_most = n_even > FEWEST_PER_TASK ? n_even : FEWEST_PER_TASK;
+    return n < FEWEST_PER_TASK ? FEWEST_PER_TASK : n < at_most ? n : at_most;
+}
+
 static CzStatus run_due(Sampler *sampler, CzError *error) {
     const CzSampleOptions *options = sampler->options;
     const int n_job = options->n_job > 0 ? options->n_job : cz_processor_count();
+    sampler->n_per_task = count_per_task(sampler, n_job);
     while (sampler->first < sampler->n_due && !is_stopped(options)) {
         const int left =
-            (sampler->n_due - sampler->first + SAMPLES_PER_TASK - 1) / SAMPLES_PER_TASK;
+            (sampler->n_due - sampler->first + sampler->n_per_task - 1) / sampler->n_per_task;
         const int n_task = left < n_job * TASKS_PER_JOB ? left : n_job * TASKS_PER_JOB;
         CZ_TRY(cz_tasks_run(n_task, n_job, run_task, sampler, error));
-        sampler->first += n_task * SAMPLES_PER_TASK;
+        sampler->first += n_task * sampler->n_per_task;
         if (sampler->first > sampler->n_due)
             sampler->first = sampler->n_due;
         if (options->progress != NULL)
@@ -140,6 +156,7 @@ static CzStatus run_nominal(const Sampler *sampler, CzError *error) {
     CzEvaluatorOptions options = cz_evaluator_options_default();
     options.n_job = sampler->options->n_job;
     CZ_TRY(cz_evaluator_build(sampling->problem, &options, &sampling->parts->evaluator, error));
+    sampling->parts->cases.beside = sampling->parts->evaluator;
     cz_evaluator_set_stop(sampling->parts->evaluator, sampler->options->stop);
     CZ_TRY(cz_evaluate(sampling->parts->evaluator, 1, NULL, false, &sampling->nominal, error));
     cz_sampling_keep_nominal(sampling);

@@ -27,29 +27,47 @@ static CzStatus copy_vehicles(const CzProblem *problem, CzVariant *variant, cons
     return CZ_OK;
 }
 
-static CzStatus build(const CzProblem *problem, const CzScene *scene, const char *only, int first,
-                      CzVariant *variant, CzError *error) {
-    CZ_TRY(copy_vehicles(problem, variant, scene, error));
+/* Builds the models that are not left out, each beside the ones before and those of `beside`. */
+static CzStatus build_models(const CzProblem *problem, const CzVariantScenes *scenes,
+                             CzVariant *variant, CzError *error) {
+    const CzVariant *beside = scenes->beside;
+    const int n_beside = beside != NULL ? beside->n_scene : 0;
+    CzModel **made = calloc((size_t)(n_beside + scenes->n) + 1, sizeof(CzModel *));
+    if (made == NULL)
+        return cz_no_memory(error, "the models");
+    if (n_beside > 0)
+        memcpy(made, beside->model, (size_t)n_beside * sizeof *made);
+    CzStatus status = CZ_OK;
+    for (int s = scenes->first; s < scenes->n && status == CZ_OK; s++) {
+        CzModel **model = &variant->model[s];
+        if (scenes->only == NULL || cz_scene_is(&scenes->scene[s], scenes->only))
+            status = cz_model_build_beside(problem, s, n_beside + s, made, model, error);
+        made[n_beside + s] = *model;
+    }
+    free(made);
+    return status;
+}
+
+static CzStatus build(const CzProblem *problem, const CzVariantScenes *scenes, CzVariant *variant,
+                      CzError *error) {
+    CZ_TRY(copy_vehicles(problem, variant, scenes->scene, error));
     const size_t n_scene = variant->n_scene > 0 ? (size_t)variant->n_scene : 0;
     variant->model = calloc(n_scene + 1, sizeof(CzModel *));
     if (variant->model == NULL)
         return cz_no_memory(error, "the models");
-    for (int s = first; s < variant->n_scene; s++)
-        if (only == NULL || cz_scene_is(&scene[s], only))
-            CZ_TRY(cz_model_build_beside(problem, s, s, variant->model, &variant->model[s], error));
-    return CZ_OK;
+    return build_models(problem, scenes, variant, error);
 }
 
-CzStatus cz_variant_build(const CzProblem *problem, const CzVariantSettings *settings, int n_scene,
-                          const CzScene *scene, const char *only, int first, CzVariant *variant,
-                          CzError *error) {
-    *variant = (CzVariant){.n_scene = n_scene};
+CzStatus cz_variant_build(const CzVariantScenes *scenes, const CzVariantSettings *settings,
+                          CzVariant *variant, CzError *error) {
+    const CzProblem *problem = scenes->problem;
+    *variant = (CzVariant){.n_scene = scenes->n};
     if (settings != NULL) {
         CZ_TRY(cz_problem_read_again(problem, settings->n, settings->path, settings->value,
                                      &variant->owned, error));
         problem = variant->owned;
     }
-    const CzStatus status = build(problem, scene, only, first, variant, error);
+    const CzStatus status = build(problem, scenes, variant, error);
     if (status != CZ_OK)
         cz_variant_free(variant);
     return status;

@@ -24,12 +24,23 @@ typedef struct CzVariantSettings {
     const char *const *path, *const *value;
 } CzVariantSettings;
 
-/* Builds a variant; `settings` NULL for the problem as written, `only` NULL for every scenario,
- * from scenario `first` on. A variant that failed need not be freed. Statuses: CZ_OK,
- * CZ_STATUS_INPUT with the rule that the settings violate, CZ_STATUS_NO_MEMORY. */
-CZ_MUST_CHECK CzStatus cz_variant_build(const CzProblem *problem, const CzVariantSettings *settings,
-                                        int n_scene, const CzScene *scene, const char *only,
-                                        int first, CzVariant *variant, CzError *error);
+/* Scenarios of a variant, and those of them that are run. */
+typedef struct CzVariantScenes {
+    const CzProblem *problem;
+    int n;
+    const CzScene *scene;    /* (n) */
+    const char *only;        /* the only scenario or family; NULL for all */
+    int first;               /* scenarios before this one are left out */
+    const CzVariant *beside; /* whose tracks are used where they are the same; it must live longer;
+                                NULL for none */
+} CzVariantScenes;
+
+/* Builds a variant; `settings` NULL for the problem as written. A variant that failed need not be
+ * freed. Statuses: CZ_OK, CZ_STATUS_INPUT with the rule that the settings violate,
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_variant_build(const CzVariantScenes *scenes,
+                                        const CzVariantSettings *settings, CzVariant *variant,
+                                        CzError *error);
 void cz_variant_free(CzVariant *variant);
 
 #endif

@@ -33,7 +33,8 @@ static void keep_result(Keeper *keeper, const CzCheckResult *result, int check, 
     sampling->verdict[at] = fails ? CZ_VERDICT_FAIL : result->verdict;
     if (!isnan(margin) && (isnan(kept->margin) || margin < kept->margin))
         kept->margin = margin;
-    if (keeper->deciding < 0 || cz_check_is_worse(result, &keeper->own.check[keeper->deciding])) {
+    if (result->verdict != CZ_VERDICT_NOT_CHECKED &&
+        (keeper->deciding < 0 || cz_check_is_worse(result, &keeper->own.check[keeper->deciding]))) {
         keeper->deciding = keeper->own.n_check;
         kept->check = check;
     }

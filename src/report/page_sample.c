@@ -31,6 +31,8 @@ static void write_banner(CzMarkup *markup, const CzSampling *sampling) {
     cz_markup_write(markup, "<header><p class='banner %s'>%s</p></header>\n", classes[style], word);
     cz_sample_say_share(sampling, text);
     cz_markup_write(markup, "<p><strong>%s.</strong></p>\n", text);
+    if (cz_sample_say_unjudged(sampling, text))
+        cz_markup_write(markup, "<p class='fail'>%s.</p>\n", text);
     cz_sample_say_how(sampling, text);
     cz_markup_write(markup,
                     "<p>%s. The verdict is that of the %s of each check; the nominal design: "

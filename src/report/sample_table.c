@@ -64,6 +64,28 @@ void cz_sample_say_how(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]
     }
 }
 
+/* The first check of a scenario that cannot be made for the nominal design; NULL when all can. */
+static const CzCheckResult *first_unchecked(const CzEvaluation *nominal) {
+    for (int i = 0; i < nominal->n_check; i++)
+        if (nominal->check[i].verdict == CZ_VERDICT_NOT_CHECKED &&
+            strcmp(nominal->check[i].scenario, "design") != 0)
+            return &nominal->check[i];
+    return NULL;
+}
+
+bool cz_sample_say_unjudged(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]) {
+    const CzCheckResult *check = first_unchecked(&sampling->nominal);
+    int n = 0;
+    for (int k = 0; k < sampling->n_sample; k++)
+        n += sampling->sample[k].state == CZ_SAMPLE_DONE &&
+             sampling->sample[k].verdict == CZ_VERDICT_NOT_CHECKED;
+    snprintf(text, CZ_SAMPLE_SENTENCE, "%d sample%s without a verdict%s%s%s%s", n,
+             n == 1 ? " is" : "s are", check != NULL ? "; NOT CHECKED: " : "",
+             check != NULL ? check->name : "", check != NULL && check->why != NULL ? ", " : "",
+             check != NULL && check->why != NULL ? check->why : "");
+    return n > 0;
+}
+
 const char *cz_sample_word(CzVerdict verdict, CzStyle *style) {
     static const struct {
         const char *word;
@@ -247,6 +269,8 @@ void cz_sample_write_table(const CzReport *report, CzTerminal *terminal) {
         write_failures(sampling, terminal);
         cz_sample_say_share(sampling, text);
         cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s.\n", text);
+        if (cz_sample_say_unjudged(sampling, text))
+            cz_terminal_say(terminal, CZ_STYLE_CAREFUL, "%s.\n", text);
         write_worst(report, terminal);
     }
     write_judgement(sampling, terminal);

@@ -15,6 +15,9 @@ int *cz_sample_order(const CzSampling *sampling);
 void cz_sample_say_share(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]);
 void cz_sample_say_how(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]);
 
+/* how many samples have no verdict, and the first check that cannot be made; false for none. */
+bool cz_sample_say_unjudged(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]);
+
 /* Word and style of a judgement. */
 const char *cz_sample_word(CzVerdict verdict, CzStyle *style);
 

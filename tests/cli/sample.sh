@@ -91,6 +91,21 @@ failed() {
 check "failed runs are failed samples, named everywhere, and end with 3" failed
 refused() { sed 's/    - {name: speed.*/    - {path: "parts.*.coupler.tube.stages[0].stroke_mm", tolerance: 400}/' scatter.yaml >refused.yaml && exits 3 "$C" sample refused.yaml -o refused && says out.txt ' invalid: ' && [ "$(grep -c ',invalid,' refused/samples.csv)" -gt 0 ]; }
 check "values that no file may have are failed samples too" refused
+unjudged() { # a design that satisfies the rules that can be judged
+    cat >rules.yaml <<'END'
+extends: calm.yaml
+set:
+  parts.cab-end.coupler.tube.stages[0].force_kN: 900
+  parts.cab-end.anti_climber.stages[0].force_kN: 380
+  parts.cab-end.anti_climber.stages[0].stroke_mm: 560
+  parts.inner-end.coupler.tube.stages[0].force_kN: 580
+  parts.inner-end.coupler.tube.stages[0].stroke_mm: 380
+checks: {design_rules: true}
+uncertainty: {parameters: [{path: trains.A.speed_km_h, tolerance_percent: 1}]}
+END
+    exits 1 "$C" sample rules.yaml -n 3 -o rules && says out.txt '3 samples are without a verdict; NOT CHECKED: section force / proof strength, an end has no proof_strength' && says rules/report.html 'without a verdict'
+}
+check "a check that cannot be made is named with its reason" unjudged
 wrong() {
     exits 2 "$C" sample two.yaml && says err.txt 'the problem has no uncertain numbers' && exits 2 "$C" sample scatter.yaml --shard 4/3 && says err.txt "'--shard 4/3' is not a part" && exits 2 "$C" sample scatter.yaml --shard 1 && exits 2 "$C" sample scatter.yaml -n 0 &&
         exits 2 "$C" sample scatter.yaml -n 3 --shard 1/4 && says err.txt 'there is no shard 1 of 4 of 3 samples' && exits 2 "$C" sample two.yaml --json && json out.txt error.message 'the problem has no uncertain numbers'

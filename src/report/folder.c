@@ -434,6 +434,8 @@ CzStatus cz_folder_finish(CzFolder *folder, CzError *error) {
     if (old[0] != '\0')
         cz_remove_files(old, marker);
     free(marker);
+    cz_parent_of(folder->target, old);
+    cz_temporary_clear(old); /* results of a process that died before it put them in place */
     return CZ_OK;
 }
 

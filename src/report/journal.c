@@ -197,26 +197,35 @@ static void expect(Cursor *cursor, const char *text) {
         cursor->at += n;
 }
 
-/* Removes the rest of a text after its opening quote, with its closing one, and undoes escapes. */
+/* Reads the four digits of an escape; false when they are not there. */
+static bool read_escape(const char *digits, char *byte) {
+    unsigned code;
+    if (strspn(digits, "0123456789ABCDEFabcdef") < 4 || sscanf(digits, "%4x", &code) != 1)
+        return false;
+    *byte = (char)code;
+    return true;
+}
+
+/* Removes a text with its quotes and undoes its escapes. */
 static const char *cut_text(Cursor *cursor) {
     expect(cursor, "\"");
-    char *text = cursor->at, *to = text;
+    char *text = cursor->at, *to = text, what[CZ_FAULT_ROOM];
+    size_t at;
     while (!cursor->failed && *cursor->at != '"') {
-        unsigned code = 0;
-        if (*cursor->at == '\0') {
-            cursor->failed = true;
-        } else if (strncmp(cursor->at, "\\u", 2) == 0) {
-            cursor->failed = sscanf(cursor->at + 2, "%4x", &code) != 1;
-            *to++ = (char)code;
-            cursor->at += cursor->failed ? 0 : 6;
+        if (strncmp(cursor->at, "\\u", 2) == 0 && read_escape(cursor->at + 2, to)) {
+            to++;
+            cursor->at += 6;
         } else {
-            cursor->at += *cursor->at == '\\' && cursor->at[1] != '\0';
-            *to++ = *cursor->at++;
+            cursor->at += *cursor->at == '\\';
+            cursor->failed = *cursor->at == '\0';
+            if (!cursor->failed)
+                *to++ = *cursor->at++;
         }
     }
     expect(cursor, "\"");
-    const char *copy =
-        cursor->failed ? NULL : cz_arena_copy_text(cursor->arena, text, (size_t)(to - text));
+    const size_t n = (size_t)(to - text);
+    cursor->failed = cursor->failed || cz_text_fault(text, n, false, &at, what);
+    const char *copy = cursor->failed ? NULL : cz_arena_copy_text(cursor->arena, text, n);
     cursor->failed |= copy == NULL;
     return copy != NULL ? copy : "";
 }
@@ -296,8 +305,9 @@ static bool read_head(char *line, CzArena *arena, CzJournalStart *start) {
     start->n_detail = (int)cut_whole(&cursor, ", \"n_detail\": ");
     start->head.set = cut_texts(&cursor, ", \"set\": [", &start->head.n_set);
     start->head.word = cut_texts(&cursor, ", \"options\": [", &start->head.n_word);
-    return !cursor.failed && start->n_earlier >= 0 && start->n_variable >= 0 &&
-           start->n_constraint >= 0 && start->n_detail >= 0;
+    return !cursor.failed && start->head.seed >= 0 && start->head.evaluations > 0 &&
+           start->n_earlier >= 0 && start->n_variable >= 0 && start->n_constraint >= 0 &&
+           start->n_detail >= 0;
 }
 
 /* Reads an evaluation; false when the line is damaged, or without memory. */

@@ -224,7 +224,31 @@ static bool is_replaced(const char *folder, const char *marker) {
     return cz_path_in(path, parent, name, NULL) == CZ_OK && lstat(path, &info) == 0;
 }
 
-/* A complete folder is kept unless another one has taken its place, because it contains results. */
+/* Whether the folder that this one was to replace has newer results. */
+static bool is_outdated(const char *folder, const char *marker) {
+    char parent[PATH_MAX], path[PATH_MAX], name[NAME_MAX + 1];
+    struct stat own, other;
+    const size_t n = sizeof CZ_MARKER_MADE_FOR - 1;
+    if (strncmp(marker, CZ_MARKER_MADE_FOR, n) != 0 || sscanf(marker + n, "%255[^\n]", name) != 1)
+        return false;
+    if (cz_path_in(path, folder, CZ_MARKER_NAME, NULL) != CZ_OK || lstat(path, &own) != 0)
+        return false;
+    cz_parent_of(folder, parent);
+    if (cz_path_in(path, parent, name, NULL) != CZ_OK)
+        return false;
+    char *theirs = cz_marker_read(path);
+    const bool is_whole = theirs != NULL && cz_marker_is_whole(theirs);
+    free(theirs);
+    snprintf(parent, sizeof parent, "%s", path);
+    return is_whole && cz_path_in(path, parent, CZ_MARKER_NAME, NULL) == CZ_OK &&
+           lstat(path, &other) == 0 &&
+           (other.st_mtim.tv_sec > own.st_mtim.tv_sec ||
+            (other.st_mtim.tv_sec == own.st_mtim.tv_sec &&
+             other.st_mtim.tv_nsec > own.st_mtim.tv_nsec));
+}
+
+/* A complete folder contains results: it is kept unless another one has taken its place, or its
+ * place has newer ones. */
 static void clear_folder(const char *path) {
     char marker_path[PATH_MAX];
     if (cz_path_in(marker_path, path, CZ_MARKER_NAME, NULL) != CZ_OK)
@@ -235,7 +259,8 @@ static void clear_folder(const char *path) {
         return;
     }
     char *marker = cz_marker_read(path);
-    if (marker == NULL || !cz_marker_is_whole(marker) || is_replaced(path, marker))
+    if (marker == NULL || !cz_marker_is_whole(marker) || is_replaced(path, marker) ||
+        is_outdated(path, marker))
         cz_remove_listed(path);
     free(marker);
     close(descriptor);

@@ -210,6 +210,10 @@ old_alone() { halfway && rm -r .crushzone-fedcba9876543210 && exits 0 "$C" compa
 after() { # after the second rename the old results are removed
     halfway && mv .crushzone-fedcba9876543210 swap && exits 0 "$C" run small.yaml -o swap -q && [ -z "$(leftovers)" ]
 }
+outdated() { # complete results whose process died before they were put in place, beside a search that has not ended
+    rm -rf late && exits 0 "$C" optimise small.yaml -o late -q && mv late .crushzone-fedcba9876543210 && mkdir late && printf 'crushzone results\nhistory.jsonl\noptimised.yaml\n' >late/.crushzone &&
+        head -3 .crushzone-fedcba9876543210/history.jsonl >late/history.jsonl && exits 0 "$C" optimise small.yaml --resume late -q && [ -f late/outcome.json ] && [ -z "$(leftovers)" ]
+}
 search() { # the result of a search is put back before the check whether it may be replaced
     rm -rf found && exits 0 "$C" optimise small.yaml -o found -q && mv found .crushzone-0123456789abcdef && exits 4 "$C" run small.yaml -o found -q && says err.txt 'the result of a search' && [ -f found/optimised.yaml ]
 }
@@ -217,5 +221,6 @@ check "the next report restores the new results" next_report
 check "the next run replaces them" next_run
 check "the old results are restored where there are no new ones" old_alone
 check "old results that were replaced are cleared" after
+check "results that never came to their place are cleared once it has newer ones" outdated
 check "a search that was being renamed is kept from other commands" search
 finish

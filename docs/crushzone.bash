@@ -62,7 +62,7 @@ _crushzone() {
     optimise | optimize) options='--output --json --quiet --verbose --set --time-step-ms --algorithm --evaluations --seed --resume --max-time --jobs --csv-sep --csv-decimal --color --help' ;;
     sweep) options='--output --force --json --quiet --set --scenario --time-step-ms --strict --vary --metric --check --jobs --csv-sep --csv-decimal --color --help' ;;
     sample) options='--output --force --json --quiet --set --time-step-ms --seed --samples --shard --join --jobs --csv-sep --csv-decimal --color --help' ;;
-    pareto) options='--output --force --json --quiet --verbose --set --time-step-ms --minimise --points --algorithm --evaluations --seed --max-time --jobs --csv-sep --csv-decimal --color --help' ;;
+    pareto) options='--output --force --json --quiet --verbose --set --time-step-ms --minimise --points --algorithm --evaluations --seed --resume --max-time --jobs --csv-sep --csv-decimal --color --help' ;;
     challenge) options='--output --force --json --quiet --set --time-step-ms --seed --runs --jobs --csv-sep --csv-decimal --color --help' ;;
     explain) options='--json --quiet --set --scenario --time-step-ms --jobs --color --help' ;;
     verify) options='--json --quiet --verbose --set --scenario --time-step-ms --jobs --color --help' ;;

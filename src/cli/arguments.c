@@ -321,7 +321,8 @@ static CzStatus check_operands(const CzArguments *arguments, CzError *error) {
         (arguments->n_vary < 1 || arguments->n_vary > CZ_MOST_AXES))
         return cz_fail(error, CZ_STATUS_INPUT,
                        "'crushzone sweep' needs --vary PATH=A:B:N once or twice");
-    if (arguments->command == CZ_COMMAND_PARETO && arguments->n_minimise != 2)
+    if (arguments->command == CZ_COMMAND_PARETO && arguments->n_minimise != 2 &&
+        (arguments->n_minimise > 0 || arguments->text[CZ_OPTION_RESUME] == NULL))
         return cz_fail(error, CZ_STATUS_INPUT,
                        "'crushzone pareto' needs --minimise NAME twice" CZ_HELP
                        "one of them may be margin, the smallest margin of all checks");

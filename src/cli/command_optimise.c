@@ -3,11 +3,9 @@
 #include "cli/interrupt.h"
 #include "cli/messages.h"
 #include "cli/progress.h"
-#include "cli/session.h"
+#include "cli/resume.h"
 
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 static const char default_folder[] = "out-optimised";
 
@@ -20,54 +18,6 @@ typedef struct Search {
     const char *folder;
     CzOutcome *outcome;
 } Search;
-
-/* ---- resuming ---- */
-
-/* Replaces the options of a resumed search that are not given, or are the same, by those of its
- * journal, so that its pages show the command that began it. */
-static void take_options(CzArguments *arguments, const CzJournalHead *head) {
-    const bool raises = arguments->evaluations > head->evaluations;
-    const struct {
-        CzOption option;
-        const char *word;
-        bool is_other;
-    } known[] = {{CZ_OPTION_ALGORITHM, "--algorithm", arguments->text[CZ_OPTION_ALGORITHM] != NULL},
-                 {CZ_OPTION_SEED, "--seed", arguments->seed >= 0},
-                 {CZ_OPTION_EVALUATIONS, "--evaluations", arguments->evaluations > 0}};
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
-        const char *written = NULL;
-        for (int k = 0; k + 1 < head->n_word; k += 2)
-            if (strcmp(head->word[k], known[i].word) == 0)
-                written = head->word[k + 1];
-        if (!known[i].is_other || (known[i].option == CZ_OPTION_EVALUATIONS && !raises))
-            arguments->text[known[i].option] = written;
-    }
-    if (arguments->seed < 0)
-        arguments->seed = head->seed;
-    if (arguments->evaluations == 0)
-        arguments->evaluations = head->evaluations;
-    if (arguments->n_set == 0) {
-        arguments->set = (const char **)head->set;
-        arguments->n_set = head->n_set;
-    }
-}
-
-/* Opens the journal of the folder. Returns the exit code. */
-static int open_journal(Search *search) {
-    const bool resumes = search->arguments.text[CZ_OPTION_RESUME] != NULL;
-    CzError error = {0};
-    if (cz_journal_open(search->folder, resumes, &search->journal, &error) != CZ_OK)
-        return cz_tell_error(&search->arguments, &error);
-    const CzJournalHead *head = cz_journal_head(search->journal);
-    if (head == NULL)
-        return 0;
-    take_options(&search->arguments, head);
-    cz_tell(&search->arguments, "resuming after %ld evaluations%s", head->n_answer,
-            head->was_torn ? "; the last line of the journal was incomplete and is left out" : "");
-    return 0;
-}
-
-/* ---- the search ---- */
 
 static CzOptimiseOptions options_of(const Search *search) {
     const CzArguments *arguments = &search->arguments;
@@ -135,11 +85,6 @@ static int finish(Search *search) {
     return unkept != 0 ? unkept : unprinted != 0 ? unprinted : judge(outcome);
 }
 
-/* Whether the journal of a search that failed has nothing worth keeping. */
-static bool is_useless(CzStatus status) {
-    return status == CZ_STATUS_INPUT || status == CZ_STATUS_RUN_FAILED;
-}
-
 static int search_and_finish(Search *search) {
     CzError error = {0};
     CzOptimiseOptions options = options_of(search);
@@ -158,7 +103,7 @@ static int search_and_finish(Search *search) {
     } else if (status != CZ_OK) {
         code = cz_session_fail(&search->session, &error);
     }
-    cz_journal_end(search->journal, is_useless(status));
+    cz_journal_end(search->journal, cz_resume_is_useless(status));
     search->journal = NULL;
     return code;
 }
@@ -169,13 +114,13 @@ int cz_command_optimise(const CzArguments *arguments) {
     search.folder = resumes ? arguments->text[CZ_OPTION_RESUME] : arguments->text[CZ_OPTION_OUTPUT];
     if (search.folder == NULL)
         search.folder = default_folder;
-    int code = resumes ? open_journal(&search) : 0;
+    int code = resumes ? cz_resume_open(&search.arguments, search.folder, &search.journal) : 0;
     if (code == 0) {
         code = cz_session_begin(&search.session, &search.arguments, arguments->operand[0]);
         if (code == 0)
             code = cz_session_check_folder(&search.session, search.folder, true);
         if (code == 0 && !resumes)
-            code = open_journal(&search);
+            code = cz_resume_open(&search.arguments, search.folder, &search.journal);
         if (code == 0)
             code = search_and_finish(&search);
         cz_outcome_free(search.outcome);

@@ -3,7 +3,7 @@
 #include "cli/interrupt.h"
 #include "cli/messages.h"
 #include "cli/progress.h"
-#include "cli/session.h"
+#include "cli/resume.h"
 
 #include <stdio.h>
 
@@ -47,60 +47,95 @@ static int judge(const CzPareto *pareto) {
     return cz_status_exit_code(worst);
 }
 
-static int finish(CzSession *session, const CzPareto *pareto, const char *folder) {
-    const CzArguments *arguments = session->arguments;
-    CzReport report = cz_session_report(session, CZ_REPORT_PARETO, pareto->wall_s);
-    report.evaluator = pareto->evaluator;
-    report.pareto = pareto;
-    const int unkept = cz_keep_results(arguments, &report, folder);
-    const int unprinted = cz_print_results(arguments, &report);
+/* A front with its folder. */
+typedef struct Front {
+    CzArguments arguments; /* of the command line; of a resumed front with those of its journal */
+    CzSession session;
+    CzReport report;
+    CzJournalFile *journal;
+    const char *folder;
+    CzPareto *pareto;
+} Front;
+
+static int finish(Front *front) {
+    const CzArguments *arguments = &front->arguments;
+    const CzPareto *pareto = front->pareto;
+    front->session.options.wall_s = pareto->wall_s;
+    front->session.options.journal = cz_journal_path(front->journal);
+    front->session.options.replaces_search = true; /* its own journal */
+    front->report.evaluator = pareto->evaluator;
+    front->report.pareto = pareto;
+    const int unkept = cz_keep_results(arguments, &front->report, front->folder);
+    const int unprinted = cz_print_results(arguments, &front->report);
     if (unkept == 0)
-        cz_tell(arguments, "results in %s, computed in %.3g s", folder, pareto->wall_s);
+        cz_tell(arguments, "results in %s, computed in %.3g s", front->folder, pareto->wall_s);
     return unkept != 0 ? unkept : unprinted != 0 ? unprinted : judge(pareto);
 }
 
-static int find_front(CzSession *session, const char *folder) {
-    const CzArguments *arguments = session->arguments;
-    Progress progress = {.n_point = 1};
+static CzParetoOptions options_of(const Front *front, Progress *progress) {
+    const CzArguments *arguments = &front->arguments;
+    const CzJournalHead *head = cz_journal_head(front->journal);
     CzParetoOptions options = cz_pareto_options_default();
-    for (int k = 0; k < 2; k++)
+    for (int k = 0; k < 2 && k < arguments->n_minimise; k++)
         options.minimise[k] = arguments->minimise[k];
     if (arguments->n_point > 0)
         options.n_point = arguments->n_point;
     options.n_job = arguments->n_job;
-    options.search.algorithm = arguments->text[CZ_OPTION_ALGORITHM];
+    options.search.algorithm = head != NULL ? head->algorithm : NULL;
+    if (arguments->text[CZ_OPTION_ALGORITHM] != NULL)
+        options.search.algorithm = arguments->text[CZ_OPTION_ALGORITHM];
     options.search.evaluations = arguments->evaluations;
     options.search.seed = arguments->seed;
     options.search.stop = cz_interrupt_flag();
     options.search.progress = show;
-    options.search.progress_data = &progress;
+    options.search.progress_data = progress;
     options.begins = begin_point;
-    options.begins_data = &progress;
-    cz_interrupt_catch();
-    if (arguments->max_time > 0)
-        cz_interrupt_after(arguments->max_time);
-    cz_progress_begin(&progress.line, arguments, false, "");
-    CzPareto *pareto = NULL;
+    options.begins_data = progress;
+    return options;
+}
+
+static int find_front(Front *front) {
+    Progress progress = {.n_point = 1};
     CzError error = {0};
-    const CzStatus status = cz_pareto(session->problem, &options, &pareto, &error);
-    cz_progress_end(&progress.line);
-    const int code =
-        status == CZ_OK ? finish(session, pareto, folder) : cz_session_fail(session, &error);
-    cz_pareto_free(pareto);
+    CzParetoOptions options = options_of(front, &progress);
+    front->report = cz_session_report(&front->session, CZ_REPORT_PARETO, 0);
+    front->report.evaluator = front->session.evaluator;
+    CzStatus status = cz_optimise_settle(front->session.evaluator, &options.search, &error);
+    if (status == CZ_OK)
+        status = cz_journal_begin(front->journal, &front->report, &options.search, &error);
+    if (status == CZ_OK) {
+        cz_interrupt_catch();
+        if (front->arguments.max_time > 0)
+            cz_interrupt_after(front->arguments.max_time);
+        cz_progress_begin(&progress.line, &front->arguments, false, "");
+        status = cz_pareto(front->session.problem, &options, &front->pareto, &error);
+        cz_progress_end(&progress.line);
+    }
+    const int code = status == CZ_OK ? finish(front) : cz_session_fail(&front->session, &error);
+    cz_journal_end(front->journal, cz_resume_is_useless(status));
+    front->journal = NULL;
     return code;
 }
 
 int cz_command_pareto(const CzArguments *arguments) {
-    const char *folder = arguments->text[CZ_OPTION_OUTPUT];
-    CzSession session;
-    if (folder == NULL)
-        folder = default_folder;
-    int code = cz_session_read(&session, arguments, arguments->operand[0]);
-    if (code == 0)
-        code =
-            cz_session_check_folder(&session, folder, arguments->text[CZ_OPTION_REPLACE] != NULL);
-    if (code == 0)
-        code = find_front(&session, folder);
-    cz_session_end(&session);
+    Front front = {.arguments = *arguments};
+    const bool resumes = arguments->text[CZ_OPTION_RESUME] != NULL;
+    front.folder = resumes ? arguments->text[CZ_OPTION_RESUME] : arguments->text[CZ_OPTION_OUTPUT];
+    if (front.folder == NULL)
+        front.folder = default_folder;
+    int code = resumes ? cz_resume_open(&front.arguments, front.folder, &front.journal) : 0;
+    if (code == 0) {
+        code = cz_session_begin(&front.session, &front.arguments, arguments->operand[0]);
+        if (code == 0)
+            code = cz_session_check_folder(&front.session, front.folder,
+                                           resumes || arguments->text[CZ_OPTION_REPLACE] != NULL);
+        if (code == 0 && !resumes)
+            code = cz_resume_open(&front.arguments, front.folder, &front.journal);
+        if (code == 0)
+            code = find_front(&front);
+        cz_pareto_free(front.pareto);
+        cz_session_end(&front.session);
+    }
+    cz_journal_end(front.journal, false);
     return code;
 }

@@ -23,6 +23,8 @@ static int find_file(CzResult *result, const char *operand) {
                     ? "it is the folder of a sweep, whose report was written by the sweep"
                 : cz_recall_is_there(operand, "pareto.json")
                     ? "it is the folder of a front, whose report was written with it"
+                : cz_recall_is_there(operand, "history.jsonl")
+                    ? "it is the folder of a search that has not ended; go on with --resume"
                     : "");
         return cz_tell_error(&result->arguments, &error);
     }

@@ -43,10 +43,15 @@ static CzStatus read_problem(CzSession *session, CzError *error) {
 /* Collects the options of the command line that change results; --time-step-ms is among the
  * settings. */
 static void list_options(CzSession *session) {
-    static const CzOption listed[] = {CZ_OPTION_SCENARIO, CZ_OPTION_INTEGRATOR, CZ_OPTION_ALGORITHM,
-                                      CZ_OPTION_EVALUATIONS, CZ_OPTION_SEED};
-    static const char *const words[] = {"--scenario", "--integrator", "--algorithm",
-                                        "--evaluations", "--seed"};
+    static const CzOption listed[] = {CZ_OPTION_SCENARIO,  CZ_OPTION_INTEGRATOR,
+                                      CZ_OPTION_ALGORITHM, CZ_OPTION_EVALUATIONS,
+                                      CZ_OPTION_SEED,      CZ_OPTION_POINTS};
+    static const char *const words[] = {"--scenario",    "--integrator", "--algorithm",
+                                        "--evaluations", "--seed",       "--points"};
+    for (int k = 0; k < session->arguments->n_minimise && k < 2; k++) {
+        session->word[session->n_word++] = "--minimise";
+        session->word[session->n_word++] = session->arguments->minimise[k];
+    }
     for (size_t i = 0; i < sizeof listed / sizeof *listed; i++) {
         const char *value = session->arguments->text[listed[i]];
         if (value == NULL)
@@ -152,8 +157,9 @@ int cz_session_check_folder(const CzSession *session, const char *folder, bool r
     const CzStatus status =
         cz_report_check_folder(session->problem, folder, replaces_search, &error);
     /* A search opens its own folder. */
-    const bool is_open =
-        session->arguments->command != CZ_COMMAND_OPTIMISE && cz_journal_is_open(folder);
+    const bool is_open = session->arguments->command != CZ_COMMAND_OPTIMISE &&
+                         session->arguments->command != CZ_COMMAND_PARETO &&
+                         cz_journal_is_open(folder);
     if (status == CZ_OK && !is_open)
         return 0;
     if (status == CZ_OK)

@@ -13,7 +13,7 @@ typedef struct CzSession {
     char *text;           /* text from standard input; NULL when a file was read */
     size_t n_text;        /* [byte] */
     double setup_s;       /* reading and building [s] */
-    const char *word[10]; /* options that change results, except settings (n_word) */
+    const char *word[16]; /* options that change results, except settings (n_word) */
     int n_word;
     CzReportOptions options; /* of its results, set by cz_session_report */
 } CzSession;

@@ -24,6 +24,7 @@ set(CZ_SOURCES_cli
     messages.c
     recall.c
     result.c
+    resume.c
     progress.c
     session.c
     share_folder.c

@@ -51,6 +51,8 @@ typedef struct Front {
     int order[2]; /* numbers, in the options, of the objective that is minimised and of the one
                      that is bounded */
     int n_begun;
+    long n_answered;   /* evaluations of the searches so far, also those of the journal */
+    long n_evaluation; /* of the current search */
 } Front;
 
 static bool is_margin(const char *name) {
@@ -172,16 +174,42 @@ static CzStatus take(const Front *front, const CzOutcome *outcome, CzParetoPoint
     return CZ_OK;
 }
 
+/* Counts the evaluations of a search, also of one that fails, and passes them on. */
+static void count(const CzProgress *progress, void *data) {
+    Front *front = data;
+    const CzOptimiseOptions *search = &front->options->search;
+    front->n_evaluation = progress->n_evaluation;
+    if (search->progress != NULL)
+        search->progress(progress, search->progress_data);
+}
+
+/* The part of the journal that belongs to the next search. */
+static CzJournal rest_of_journal(const Front *front) {
+    CzJournal rest = *front->options->search.journal;
+    rest.n_earlier = 0;
+    rest.answer += front->n_answered < rest.n_answer ? front->n_answered : rest.n_answer;
+    rest.n_answer -= front->n_answered < rest.n_answer ? front->n_answered : rest.n_answer;
+    return rest;
+}
+
 /* One search for a point: the least of an objective within the point's bound on the other one. */
 static CzStatus search_once(Front *front, int objective, const double *start, CzParetoPoint *point,
                             CzError *error) {
     CzOptimiseOptions options = front->options->search;
     CzEvaluator *evaluator = NULL;
     CzOutcome *outcome = NULL;
+    CzJournal rest;
+    if (options.journal != NULL) {
+        rest = rest_of_journal(front);
+        options.journal = &rest;
+    }
     options.start = start;
-    options.journal = NULL;
+    options.progress = count;
+    options.progress_data = front;
+    front->n_evaluation = 0;
     CZ_TRY(build(front, objective, point->bound, &evaluator, error));
     CzStatus status = cz_optimise(evaluator, &options, &outcome, error);
+    front->n_answered += front->n_evaluation;
     if (status == CZ_OK) {
         front->pareto->is_interrupted = outcome->status == CZ_OUTCOME_INTERRUPTED;
         status = take(front, outcome, point, error);

@@ -140,7 +140,8 @@ static CzStatus check_content(const char *path, bool replaces_search, CzError *e
     const bool has_foreign = find_foreign(path, marker, "", foreign);
     const bool has_memory = !has_foreign || errno != ENOMEM;
     const bool is_search = cz_marker_lists(marker, "", "outcome.json", '\n');
-    const bool has_journal = cz_marker_lists(marker, "", "history.jsonl", '\n');
+    const bool has_journal =
+        cz_marker_lists(marker, "", "history.jsonl", '\n') && !cz_marker_is_whole(marker);
     free(marker);
     if (!has_memory)
         return cz_cannot_write(path, ENOMEM, error);
@@ -149,11 +150,15 @@ static CzStatus check_content(const char *path, bool replaces_search, CzError *e
                        "the folder %.150s contains %.150s, which crushzone did not write; move it "
                        "or choose another folder with -o",
                        path, foreign);
-    if ((is_search || has_journal) && !replaces_search)
+    const bool has_below = cz_path_in(foreign, path, "unfinished/history.jsonl", NULL) == CZ_OK &&
+                           access(foreign, F_OK) == 0;
+    if ((is_search || has_journal || has_below) && !replaces_search)
         return cz_fail(error, CZ_STATUS_OUTPUT,
                        "the folder %.150s contains %s; choose another folder with -o, or replace "
                        "it with --force",
-                       path, is_search ? "the result of a search" : "a search that has not ended");
+                       path,
+                       has_journal || has_below ? "a search that has not ended"
+                                                : "the result of a search");
     return CZ_OK;
 }
 

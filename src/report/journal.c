@@ -17,7 +17,8 @@ bool cz_journal_start(const CzReport *report, const CzOptimiseOptions *options, 
     const CzReportOptions *given = cz_report_options_of(report);
     char nlopt[32];
     cz_nlopt_version(nlopt, sizeof nlopt);
-    *start = (CzJournalStart){.version = cz_version(),
+    *start = (CzJournalStart){.command = report->kind == CZ_REPORT_PARETO ? "pareto" : "optimise",
+                              .version = cz_version(),
                               .nlopt = cz_arena_copy_text(arena, nlopt, strlen(nlopt)),
                               .problem = cz_problem_hash(report->problem),
                               .n_variable = cz_evaluator_n_variable(report->evaluator),
@@ -103,7 +104,8 @@ static CzStatus write_names(const CzReport *report, FILE *stream, CzError *error
 
 CzStatus cz_journal_write_head(const CzJournalStart *start, const CzReport *report, FILE *stream,
                                CzError *error) {
-    fputs("{\"format\": \"crushzone.history\", \"version\": ", stream);
+    fprintf(stream, "{\"format\": \"crushzone.history\", \"command\": \"%s\", \"version\": ",
+            start->command);
     write_text(start->version, stream);
     fputs(", \"nlopt\": ", stream);
     write_text(start->nlopt, stream);
@@ -289,7 +291,9 @@ static const char *const *cut_texts(Cursor *cursor, const char *before, int *n) 
 
 static bool read_head(char *line, CzArena *arena, CzJournalStart *start) {
     Cursor cursor = {.at = line, .arena = arena};
-    expect(&cursor, "{\"format\": \"crushzone.history\", \"version\": ");
+    expect(&cursor, "{\"format\": \"crushzone.history\", \"command\": ");
+    start->command = cut_text(&cursor);
+    expect(&cursor, ", \"version\": ");
     start->version = cut_text(&cursor);
     expect(&cursor, ", \"nlopt\": ");
     start->nlopt = cut_text(&cursor);

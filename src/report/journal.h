@@ -7,6 +7,7 @@
 
 /* Everything that two searches must have in common to give the same evaluations. */
 typedef struct CzJournalStart {
+    const char *command;         /* "optimise" or "pareto" */
     const char *version, *nlopt; /* of the program and of the library */
     const char *problem;         /* its hash */
     int n_variable, n_constraint, n_detail;

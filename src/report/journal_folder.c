@@ -225,7 +225,7 @@ static CzStatus keep(const CzNews *news, void *data, CzError *error) {
     for (int i = 0; i < news->n; i++)
         cz_journal_write_entry(&file->start, news, i, file->stream);
     CzStatus status = flush(file, error);
-    if (status == CZ_OK && news->best != NULL)
+    if (status == CZ_OK && news->best != NULL && file->report->kind == CZ_REPORT_SEARCH)
         status = keep_best(file, news, error);
     if (status == CZ_STATUS_OUTPUT && error != NULL)
         cz_error_help(error, "the search goes on from here with --resume %.200s", file->folder);
@@ -234,15 +234,31 @@ static CzStatus keep(const CzNews *news, void *data, CzError *error) {
 
 /* ---- the beginning ---- */
 
+/* The options of a search as one text. */
+static void join_words(const CzJournalHead *head, size_t room, char *text) {
+    text[0] = '\0';
+    for (int i = 0; i < head->n_word; i++) {
+        const size_t n = strlen(text);
+        snprintf(text + n, room - n, "%s%s", i > 0 ? " " : "", head->word[i]);
+    }
+}
+
 /* Reports the first difference between the search of the journal and this one. */
 static CzStatus compare(const CzJournalFile *file, CzError *error) {
     const CzJournalStart *theirs = &file->text.start, *ours = &file->start;
+    char their_words[400] = "", our_words[400] = "";
+    if (file->report->kind == CZ_REPORT_PARETO) { /* the order of its searches depends on them */
+        join_words(&theirs->head, sizeof their_words, their_words);
+        join_words(&ours->head, sizeof our_words, our_words);
+    }
     const struct {
         const char *what, *theirs, *ours;
-    } text[] = {{"version of crushzone", theirs->version, ours->version},
+    } text[] = {{"command", theirs->command, ours->command},
+                {"version of crushzone", theirs->version, ours->version},
                 {"version of NLopt", theirs->nlopt, ours->nlopt},
-                {"problem, with its settings, has the hash", theirs->problem, ours->problem},
-                {"algorithm", theirs->head.algorithm, ours->head.algorithm}};
+                {"problem, with its settings,", theirs->problem, ours->problem},
+                {"algorithm", theirs->head.algorithm, ours->head.algorithm},
+                {"list of options", their_words, our_words}};
     const struct {
         const char *what;
         long theirs, ours;
@@ -255,7 +271,7 @@ static CzStatus compare(const CzJournalFile *file, CzError *error) {
     snprintf(begin, sizeof begin, is_another, file->from);
     for (size_t i = 0; i < sizeof text / sizeof *text; i++)
         if (strcmp(text[i].theirs, text[i].ours) != 0)
-            return cz_fail(error, CZ_STATUS_INPUT, "%s%s is %.60s, here it is %.60s", begin,
+            return cz_fail(error, CZ_STATUS_INPUT, "%s%s is %.120s, here it is %.120s", begin,
                            text[i].what, text[i].theirs, text[i].ours);
     for (size_t i = 0; i < sizeof number / sizeof *number; i++)
         if (number[i].theirs != number[i].ours)

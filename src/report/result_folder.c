@@ -324,6 +324,8 @@ static CzStatus write_front(CzFolder *folder, Results *results, CzError *error) 
                                  {"front.svg", FRONT}};
     const CzPareto *pareto = results->report->pareto;
     CZ_TRY(write_files(folder, 4, files, results, error));
+    if (cz_report_options_of(results->report)->journal != NULL)
+        CZ_TRY(write_file(folder, "history.jsonl", JOURNAL, results, error));
     for (int i = 0; i < pareto->n_point; i++) {
         char name[32];
         snprintf(name, sizeof name, "point-%02d.yaml", i + 1);

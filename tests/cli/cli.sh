@@ -33,6 +33,6 @@ plain() { # plain FILE: it has no escape codes
 }
 # same_results FOLDER FOLDER: of a search, everything but run_info of the documents and the name in the marker.
 without_times() {
-    rm -rf "$1.bytes" && cp -r "$1" "$1.bytes" && sed -i '/^# for/d' "$1.bytes/.crushzone" && for file in outcome summary; do tr -d '\n' <"$1/$file.json" | sed 's/"run_info": *{[^}]*}//g' >"$1.bytes/$file.json"; done
+    rm -rf "$1.bytes" && cp -r "$1" "$1.bytes" && sed -i '/^# for/d' "$1.bytes/.crushzone" && (cd "$1" && for file in *.json; do tr -d '\n' <"$file" | sed 's/"run_info": *{[^}]*}//g' >"../$1.bytes/$file"; done)
 }
 same_results() { without_times "$1" && without_times "$2" && diff -r "$1.bytes" "$2.bytes"; }

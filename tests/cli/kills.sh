@@ -27,30 +27,31 @@ optimise:
     - {path: "parts.end.coupler.tube.stages[0].force_kN", min: 550, max: 900, increment: 10}
 END
 
-# The searches: their options, one line each.
+# The searches: commands with file and options, one line each.
 cases() {
     cat <<END
-two-trains.yaml --evaluations 60
-two-trains.yaml --evaluations 60 --algorithm LN_COBYLA --jobs 1
-two-trains.yaml --evaluations 60 --algorithm GN_ISRES --seed 3
-two-trains.yaml --evaluations 40 --algorithm LD_SLSQP --set trains.A.speed_km_h=24
-choice.yaml
-$SOURCE/problems/paper-25kmh-identify.yaml --evaluations 80
+optimise two-trains.yaml --evaluations 60
+optimise two-trains.yaml --evaluations 60 --algorithm LN_COBYLA --jobs 1
+optimise two-trains.yaml --evaluations 60 --algorithm GN_ISRES --seed 3
+optimise two-trains.yaml --evaluations 40 --algorithm LD_SLSQP --set trains.A.speed_km_h=24
+optimise choice.yaml
+optimise $SOURCE/problems/paper-25kmh-identify.yaml --evaluations 80
+pareto $SOURCE/problems/length-or-force.yaml --minimise margin --minimise design.installed_length_mm -n 3 --evaluations 40
 END
 }
 now() { date +%s.%N; }
 # Runs a search in the folder `out` until it ends by itself, killing it at random moments; counts kills and evaluations.
 n_kill=0
-killed() { # killed SECONDS FILE OPTION...
-    longest=$1 file=$2
-    shift 2
+killed() { # killed SECONDS COMMAND FILE OPTION...
+    longest=$1 command=$2 file=$3
+    shift 3
     rm -rf out
     while :; do
         moment=$(awk -v seed="$((seed += 1))" -v longest="$longest" 'BEGIN { srand(seed); rand(); printf "%.3f", longest * rand() }')
         if [ -f out/history.jsonl ]; then
-            "$C" optimise "$file" --resume out -q >o 2>e &
+            "$C" "$command" "$file" --resume out -q >o 2>e &
         else
-            "$C" optimise "$file" "$@" -o out -q >o 2>e &
+            "$C" "$command" "$file" "$@" -o out -q >o 2>e &
         fi
         victim=$!
         sleep "$moment"
@@ -62,24 +63,24 @@ killed() { # killed SECONDS FILE OPTION...
         code=0
         wait $victim || code=$?
         [ $code -le 1 ] || { echo "exit code $code"; cat e; return 1; }
-        [ -f out/outcome.json ] && return
+        [ ! -f out/report.html ] || return 0
     done
 }
 all() {
     seed=0 round=0
     while [ $n_kill -lt "$wanted" ]; do
         round=$((round + 1))
-        while read -r file options; do
-            key=$(echo "$file $options" | tr -c 'a-zA-Z0-9\n' _)
+        while read -r command file options; do
+            key=$(echo "$command $file $options" | tr -c 'a-zA-Z0-9\n' _)
             # shellcheck disable=SC2086 # options are words
             if [ ! -d "$key" ]; then
                 began=$(now)
-                "$C" optimise "$file" $options -o out -q >/dev/null 2>&1 || [ $? = 1 ] || return 1
+                "$C" "$command" "$file" $options -o out -q >/dev/null 2>&1 || [ $? = 1 ] || return 1
                 echo "$began $(now)" | awk '{ print $2 - $1 }' >"$key.time"
                 mv out "$key"
             fi
             # shellcheck disable=SC2086
-            killed "$(cat "$key.time")" "$file" $options || { echo "$file $options"; return 1; }
+            killed "$(cat "$key.time")" "$command" "$file" $options || { echo "$file $options"; return 1; }
             mv out resumed && same_results "$key" resumed || { echo "$file $options, after $n_kill kills"; return 1; }
             rm -rf resumed resumed.bytes
             [ -z "$(find . -name '.crushzone-*')" ] || { find . -name '.crushzone-*'; return 1; }

@@ -26,7 +26,7 @@ best() { says new/optimised.yaml 'of a search that has not ended: it' && exits 0
 check "the best design so far can be read" best
 refused() {
     exits 4 "$C" optimise two-trains.yaml -o new && says err.txt 'contains a search that has not ended' && says err.txt -- '--resume new' &&
-        exits 4 "$C" run two-trains.yaml -o new && says err.txt 'contains a search that has not ended' && says err.txt -- --force && [ -f new/history.jsonl ]
+        exits 4 "$C" run two-trains.yaml -o new && says err.txt 'contains a search that has not ended' && says err.txt -- --force && exits 2 "$C" report new && says err.txt 'go on with --resume' && [ -f new/history.jsonl ]
 }
 check "a search that has not ended is not replaced" refused
 forced() { cp -r new given && exits 0 "$C" run two-trains.yaml -o given --force && [ ! -e given/history.jsonl ] && [ -f given/summary.json ]; }
@@ -90,7 +90,7 @@ seed() { other 'another search: its seed is 1, here it is 2' --seed 2; }
 check "a journal of another seed is refused" seed
 algorithm() { other 'its algorithm is auto, here it is LN_COBYLA' --algorithm LN_COBYLA; }
 check "a journal of another algorithm is refused" algorithm
-problem() { other 'its problem, with its settings, has the hash' --set trains.A.speed_km_h=20; }
+problem() { other 'its problem, with its settings, is ' --set trains.A.speed_km_h=20; }
 check "a journal of another problem is refused" problem
 limit() { other 'limit is 12 evaluations, which can only be raised' --evaluations 11; }
 check "a lower limit is refused" limit

@@ -17,10 +17,12 @@ kill_search() {
     until begun "$folder" || ! kill -0 $victim 2>/dev/null; do sleep 0.1; done
     kill -9 $victim && { wait $victim 2>/dev/null || true; }
 }
+# content FOLDER: names of its files, without one that the killed process was writing
+content() { ls -A "$1" | grep -v '^\.crushzone-' | tr '\n' ' '; }
 # shellcheck disable=SC2086 # $endless is words
 
 # ---- where the journal is ----
-left() { kill_search 0.5 $endless -o new && [ "$(ls -A new | tr '\n' ' ')" = ".crushzone history.jsonl optimised.yaml " ] && [ "$(lines new/history.jsonl)" -gt 2 ] && head -2 new/history.jsonl | tail -1 >line && json line x.0 && json line phase start && json line scenarios.collision && json line constraints.0; }
+left() { kill_search 0.5 $endless -o new && [ "$(content new)" = ".crushzone history.jsonl optimised.yaml " ] && [ "$(lines new/history.jsonl)" -gt 2 ] && head -2 new/history.jsonl | tail -1 >line && json line x.0 && json line phase start && json line scenarios.collision && json line constraints.0; }
 check "a killed search leaves its journal and its best design" left
 best() { says new/optimised.yaml 'of a search that has not ended: it' && exits 0 "$C" validate new/optimised.yaml; }
 check "the best design so far can be read" best
@@ -33,7 +35,7 @@ forced() { cp -r new given && exits 0 "$C" run two-trains.yaml -o given --force 
 check "it is replaced by a run with --force" forced
 beside() {
     exits 1 "$C" optimise two-trains.yaml --evaluations 5 -o kept -q && cp -r kept before && kill_search 0.5 $endless -o kept &&
-        [ "$(ls kept/unfinished | tr '\n' ' ')" = "history.jsonl optimised.yaml " ] && cmp kept/history.jsonl before/history.jsonl && cmp kept/outcome.json before/outcome.json &&
+        [ "$(content kept/unfinished)" = "history.jsonl optimised.yaml " ] && cmp kept/history.jsonl before/history.jsonl && cmp kept/outcome.json before/outcome.json &&
         exits 0 "$C" validate kept/unfinished/optimised.yaml && exits 4 "$C" optimise two-trains.yaml -o kept && says err.txt 'has not ended'
 }
 check "earlier results are kept until the search has ended" beside

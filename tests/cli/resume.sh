@@ -5,6 +5,12 @@
 "$C" new -q
 endless="--algorithm GN_CRS2_LM --evaluations 1000000" # the strategy of the file may end early
 lines() { wc -l <"$1"; }
+# ends COMMAND...: a search ends by itself, with or without a design that passes
+ends() {
+    code=0
+    "$@" >out.txt 2>err.txt || code=$?
+    [ $code -le 1 ] || { echo "exit code $code"; head -5 err.txt; return 1; }
+}
 # begun FOLDER: whether a journal has several evaluations
 begun() { for journal in "$1/history.jsonl" "$1/unfinished/history.jsonl"; do [ -f "$journal" ] && [ "$(lines "$journal")" -gt 3 ] && return 0; done; return 1; }
 # kill_search SECONDS OPTION... FOLDER: a search that dies after a while, when it has begun
@@ -34,7 +40,7 @@ check "a search that has not ended is not replaced" refused
 forced() { cp -r new given && exits 0 "$C" run two-trains.yaml -o given --force && [ ! -e given/history.jsonl ] && [ -f given/summary.json ]; }
 check "it is replaced by a run with --force" forced
 beside() {
-    exits 1 "$C" optimise two-trains.yaml --evaluations 5 -o kept -q && cp -r kept before && kill_search 0.5 $endless -o kept &&
+    ends "$C" optimise two-trains.yaml --evaluations 5 -o kept -q && cp -r kept before && kill_search 0.5 $endless -o kept &&
         [ "$(content kept/unfinished)" = "history.jsonl optimised.yaml " ] && cmp kept/history.jsonl before/history.jsonl && cmp kept/outcome.json before/outcome.json &&
         exits 0 "$C" validate kept/unfinished/optimised.yaml && exits 4 "$C" optimise two-trains.yaml -o kept && says err.txt 'has not ended'
 }
@@ -46,11 +52,11 @@ check "a search without any successful run leaves no folder" nothing_left
 
 # ---- resuming ----
 torn() {
-    exits 1 "$C" optimise two-trains.yaml --evaluations 12 -o whole -q && rm -rf torn && mkdir torn && printf 'crushzone results\nhistory.jsonl\noptimised.yaml\n' >torn/.crushzone &&
-        head -c -30 whole/history.jsonl >torn/history.jsonl && exits 1 "$C" optimise two-trains.yaml --resume torn && says err.txt 'resuming after 11 evaluations; the last line of the journal was incomplete' && same_results whole torn
+    ends "$C" optimise two-trains.yaml --evaluations 12 -o whole -q && rm -rf torn && mkdir torn && printf 'crushzone results\nhistory.jsonl\noptimised.yaml\n' >torn/.crushzone &&
+        head -c -30 whole/history.jsonl >torn/history.jsonl && ends "$C" optimise two-trains.yaml --resume torn && says err.txt 'resuming after 11 evaluations; the last line of the journal was incomplete' && same_results whole torn
 }
 check "a torn last line is left out, with a note" torn
-ended() { cp -r whole again && exits 1 "$C" optimise two-trains.yaml --resume again && says err.txt 'resuming after 12 evaluations' && same_results whole again; }
+ended() { cp -r whole again && ends "$C" optimise two-trains.yaml --resume again && says err.txt 'resuming after 12 evaluations' && same_results whole again; }
 check "a search that has ended gives its results again" ended
 ctrl_c() {
     # shellcheck disable=SC2086
@@ -64,21 +70,21 @@ ctrl_c() {
 }
 check "a search that was interrupted goes on" ctrl_c
 options() { # options of the command line are those of the journal
-    exits 1 "$C" optimise two-trains.yaml --evaluations 9 --seed 4 --set trains.A.speed_km_h=30 --time-step-ms 0.2 -o typed -q && cp -r typed typed2 &&
-        exits 1 "$C" optimise two-trains.yaml --resume typed2 -q && same_results typed typed2
+    ends "$C" optimise two-trains.yaml --evaluations 9 --seed 4 --set trains.A.speed_km_h=30 --time-step-ms 0.2 -o typed -q && cp -r typed typed2 &&
+        ends "$C" optimise two-trains.yaml --resume typed2 -q && same_results typed typed2
 }
 check "a resumed search has the options of its beginning" options
-german() { LC_ALL=de_DE.UTF-8 exits 1 "$C" optimise two-trains.yaml --resume typed2 -q && same_results typed typed2; }
+german() { LC_ALL=de_DE.UTF-8 ends "$C" optimise two-trains.yaml --resume typed2 -q && same_results typed typed2; }
 check "a decimal comma of the locale is not in a journal" german
 continued() {
-    exits 1 "$C" optimise two-trains.yaml --evaluations 12 -o longer -q &&
-        exits 1 "$C" optimise two-trains.yaml --resume longer --evaluations 30 -q && json longer/outcome.json evaluations 30 &&
-        [ "$(lines longer/history.jsonl)" -lt 43 ] && exits 1 "$C" optimise two-trains.yaml --evaluations 30 -o straight -q && cmp longer/history.csv straight/history.csv && cmp longer/optimised.yaml straight/optimised.yaml
+    ends "$C" optimise two-trains.yaml --evaluations 12 -o longer -q &&
+        ends "$C" optimise two-trains.yaml --resume longer --evaluations 30 -q && json longer/outcome.json evaluations 30 &&
+        [ "$(lines longer/history.jsonl)" -lt 43 ] && ends "$C" optimise two-trains.yaml --evaluations 30 -o straight -q && cmp longer/history.csv straight/history.csv && cmp longer/optimised.yaml straight/optimised.yaml
 }
 check "a search that has ended goes on with a higher limit to the result of that limit" continued
 died() { # while it continued: its journal below the earlier results
-    exits 1 "$C" optimise two-trains.yaml --evaluations 12 -o third -q && cp -r third third-before && mkdir third/unfinished && printf 'unfinished/history.jsonl\nunfinished/optimised.yaml\n' >>third/.crushzone &&
-        head -20 longer/history.jsonl >third/unfinished/history.jsonl && exits 1 "$C" optimise two-trains.yaml --resume third && says err.txt 'resuming after 19 evaluations' && same_results longer third
+    ends "$C" optimise two-trains.yaml --evaluations 12 -o third -q && cp -r third third-before && mkdir third/unfinished && printf 'unfinished/history.jsonl\nunfinished/optimised.yaml\n' >>third/.crushzone &&
+        head -20 longer/history.jsonl >third/unfinished/history.jsonl && ends "$C" optimise two-trains.yaml --resume third && says err.txt 'resuming after 19 evaluations' && same_results longer third
 }
 check "a search that died while it continued goes on" died
 
@@ -122,8 +128,8 @@ two() {
 check "a second process is kept out of the folder of a search" two
 full() { # the disk is full in the middle of a search: nothing is lost
     (ulimit -f 8; "$C" optimise two-trains.yaml --evaluations 60 -o full -q >out.txt 2>err.txt); code=$?
-    [ $code = 4 ] && says err.txt 'full/history.jsonl cannot be written' && says err.txt -- '--resume full' && exits 1 "$C" optimise two-trains.yaml --resume full && says err.txt 'resuming after' &&
-        exits 1 "$C" optimise two-trains.yaml --evaluations 60 -o empty -q && same_results full empty
+    [ $code = 4 ] && says err.txt 'full/history.jsonl cannot be written' && says err.txt -- '--resume full' && ends "$C" optimise two-trains.yaml --resume full && says err.txt 'resuming after' &&
+        ends "$C" optimise two-trains.yaml --evaluations 60 -o empty -q && same_results full empty
 }
 check "a search on a full disk can be resumed" full
 
@@ -134,7 +140,7 @@ limited() {
         json limited/outcome.json why_stopped 'the time limit of 1s is reached' && exits 0 "$C" validate limited/optimised.yaml
 }
 check "a time limit ends a search as an interruption does, with 3" limited
-unlimited() { exits 1 "$C" optimise two-trains.yaml --evaluations 12 --max-time 1h -o hour -q && same_results whole hour; }
+unlimited() { ends "$C" optimise two-trains.yaml --evaluations 12 --max-time 1h -o hour -q && same_results whole hour; }
 check "a limit that is not reached changes nothing" unlimited
 units() { for time in 30 s -1s 0s 3d 5.5.5s 1e3s; do exits 2 "$C" optimise two-trains.yaml "--max-time=$time" && says err.txt 'is not a time' || return 1; done; }
 check "a time has a unit" units

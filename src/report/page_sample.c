@@ -1,4 +1,4 @@
-/* A sampling as a page: the share of passing samples, margins as histograms, what drives them, and
+/* A sampling as a page: the share of passing samples, histograms of margins, rank correlations, and
  * the worst samples. */
 #include "report/page_sample.h"
 
@@ -45,7 +45,7 @@ static void write_banner(CzMarkup *markup, const CzSampling *sampling) {
 
 static void write_nav(CzMarkup *markup) {
     cz_markup_write(markup, "<nav><a href='#checks'>checks</a> <a href='#margins'>margins</a> "
-                            "<a href='#drivers'>what drives them</a> "
+                            "<a href='#drivers'>rank correlations</a> "
                             "<a href='#matrix'>worst check</a> "
                             "<a href='#convergence'>number of samples</a> "
                             "<a href='#worst'>worst samples</a> "
@@ -148,20 +148,21 @@ static void write_draws(CzMarkup *markup, const CzSampling *sampling) {
 
 static void write_parts(CzMarkup *markup, const CzReport *report, const int *order) {
     const CzSampling *sampling = report->sampling;
+    char text[CZ_FIGURE_ROOM];
     write_nav(markup);
     write_checks(markup, sampling, order);
     cz_markup_write(markup,
                     "<section id='margins'>\n<h2>Margins</h2>\n<p>The checks that fail most often, "
                     "or have the smallest margins, each in its worst scenario. Margins below -100 "
-                    "%% are drawn at -100 %%, runs "
-                    "that failed too.</p>");
+                    "%% and runs that failed are drawn at -100 %%.</p>");
     write_figures(markup, sampling, order, MOST_HISTOGRAMS, cz_sample_draw_histogram);
-    cz_markup_write(markup,
-                    "<section id='drivers'>\n<h2>What drives the margins</h2>\n<p>Rank correlation "
-                    "of each random number with the margin: green to the right, the margin grows "
-                    "with the number; orange to the left, it falls. Correlations below %s cannot "
-                    "be told from chance.</p>",
-                    sampling->n_run > 3 ? "2 / \xe2\x88\x9an" : "1");
+    cz_markup_write(
+        markup,
+        "<section id='drivers'>\n<h2>Rank correlations</h2>\n<p>Rank correlation (Spearman) of "
+        "each "
+        "random number with the margin. Green, to the right: the margin grows with the number; "
+        "orange, to the left: it falls. A correlation below %s may be chance.</p>",
+        cz_figure_fixed(text, 2, fmin(2 / sqrt(fmax(sampling->n_run - 1, 1)), 1)));
     write_figures(markup, sampling, order, MOST_TORNADOES, cz_sample_draw_tornado);
     write_matrix(markup, sampling, order);
     cz_markup_write(markup, "<section id='convergence'>\n<h2>Number of samples</h2>\n"

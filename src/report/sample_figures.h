@@ -1,4 +1,4 @@
-/* Figures of a sampling: histograms of margins, what drives them, and how sure their share is. */
+/* Figures of a sampling: histograms of margins, rank correlations, convergence. */
 #ifndef CZ_REPORT_SAMPLE_FIGURES_H
 #define CZ_REPORT_SAMPLE_FIGURES_H
 

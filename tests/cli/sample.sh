@@ -38,7 +38,7 @@ passes() { exits 0 "$C" sample calm.yaml -n 5 && says out.txt '5 of 5 samples pa
 check "exit code 0 when the required statistic of every check is satisfied" passes
 document() { exits 1 "$C" sample scatter.yaml --json && json out.txt format crushzone.sample && json out.txt verdict fail && json out.txt passing.n 12 && json out.txt draws.0.name 'tubes, cab-end' && json out.txt checks.0.correlations.mass; }
 check "--json prints one document" document
-folder() { exits 1 "$C" sample scatter.yaml -q -o whole && json whole/sample.json status completed && [ "$(grep -c . whole/samples.csv)" = 13 ] && says whole/report.html 'What drives the margins' && exits 1 "$C" sample scatter.yaml -q -o whole; }
+folder() { exits 1 "$C" sample scatter.yaml -q -o whole && json whole/sample.json status completed && [ "$(grep -c . whole/samples.csv)" = 13 ] && says whole/report.html 'Rank correlations' && exits 1 "$C" sample scatter.yaml -q -o whole; }
 check "-o writes sample.json, samples.csv and report.html, and replaces its own" folder
 options() { exits 1 "$C" sample scatter.yaml -q -n 12 --seed 1 -o same && same_bytes whole same && exits 1 "$C" sample scatter.yaml -q --seed 2 -o other && ! cmp -s whole/samples.csv other/samples.csv; }
 check "-n and --seed replace those of the file" options

@@ -13,6 +13,7 @@
 #include "crushzone/explain.h"
 #include "crushzone/fit.h"
 #include "crushzone/optimise.h"
+#include "crushzone/robust.h"
 #include "crushzone/sample.h"
 #include "crushzone/pareto.h"
 #include "crushzone/sweep.h"
@@ -80,6 +81,7 @@ typedef struct CzReport {
     const CzEvaluation *evaluation;
     const CzEvaluator *evaluator;
     const CzOutcome *outcome;
+    const CzRobust *robust; /* of a search against scatter, which has the outcome; else NULL */
     const CzSweep *sweep;
     const CzSampling *sampling;
     const CzPareto *pareto;

@@ -113,7 +113,8 @@ typedef struct CzSampling {
     CzSampledShare *convergence; /* after 1, 2, 4, ... and all samples that were run */
     CzVerdict judgement;         /* whether the statistic that the file requires holds */
     CzEvaluation nominal;        /* the design as written, with reserves */
-    CzProblem *problem;          /* as written */
+    const CzProblem *problem;    /* as written */
+    CzProblem *own_problem;      /* the same, where the sampling read it; else NULL */
     bool is_interrupted;
     double wall_s;
     struct CzSamplingParts *parts; /* memory of texts */
@@ -128,6 +129,7 @@ typedef struct CzSampleOptions {
     long seed;          /* -1: that of the file */
     int shard, n_shard; /* only these samples: the shard-th of n_shard equal runs of samples */
     int n_job;          /* threads; 0: one per processor */
+    bool brief;         /* runs of samples end as soon as their results are final, as in a search */
     const char *text;   /* text that is read in place of the file; NULL for the file */
     size_t n_text;      /* [byte] */
     const volatile sig_atomic_t *stop; /* a flag that ends the sampling when not 0; NULL: none */
@@ -144,6 +146,10 @@ CZ_API CzSampleOptions cz_sample_options_default(void);
 CZ_MUST_CHECK CZ_API CzStatus cz_sample(const char *file, const CzProblemOptions *problem_options,
                                         const CzSampleOptions *options, CzSampling **sampling,
                                         CzError *error);
+/* The same of a problem, which must outlive the sampling; the options have no text. */
+CZ_MUST_CHECK CZ_API CzStatus cz_sample_problem(const CzProblem *problem,
+                                                const CzSampleOptions *options,
+                                                CzSampling **sampling, CzError *error);
 CZ_API void cz_sampling_free(CzSampling *sampling);
 
 CZ_END_DECLARATIONS

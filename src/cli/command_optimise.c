@@ -4,6 +4,7 @@
 #include "cli/messages.h"
 #include "cli/progress.h"
 #include "cli/resume.h"
+#include "crushzone/robust.h"
 
 #include <stdio.h>
 
@@ -16,6 +17,7 @@ typedef struct Search {
     CzReport report;
     CzJournalFile *journal;
     const char *folder;
+    CzRobust *robust; /* of a problem with uncertainty; else NULL */
     CzOutcome *outcome;
 } Search;
 
@@ -35,6 +37,12 @@ static CzOptimiseOptions options_of(const Search *search) {
     return options;
 }
 
+/* Whether the uncertainty of the problem is part of the search: not in a single scenario. */
+static bool is_robust(const Search *search) {
+    return cz_robust_is_asked(search->session.problem) &&
+           search->arguments.text[CZ_OPTION_SCENARIO] == NULL;
+}
+
 static CzStatus run(Search *search, CzOptimiseOptions *options, CzError *error) {
     const CzArguments *arguments = &search->arguments;
     const CzEvaluator *evaluator = search->session.evaluator;
@@ -46,8 +54,20 @@ static CzStatus run(Search *search, CzOptimiseOptions *options, CzError *error) 
         cz_interrupt_after(arguments->max_time);
     cz_progress_begin(&line, arguments, cz_evaluator_maximises_margin(evaluator),
                       cz_evaluator_objective_unit(evaluator));
-    const CzStatus status =
-        cz_optimise(search->session.evaluator, options, &search->outcome, error);
+    CzStatus status;
+    if (is_robust(search)) {
+        const CzEvaluatorOptions given = cz_session_evaluator_options(arguments);
+        status =
+            cz_optimise_robust(search->session.problem, &given, options, &search->robust, error);
+        if (search->robust != NULL) {
+            search->outcome = search->robust->outcome;
+            search->report.robust = search->robust;
+            search->report.problem = search->robust->problem;
+            search->report.evaluator = search->robust->evaluator;
+        }
+    } else {
+        status = cz_optimise(search->session.evaluator, options, &search->outcome, error);
+    }
     cz_progress_end(&line);
     return status;
 }
@@ -123,7 +143,9 @@ int cz_command_optimise(const CzArguments *arguments) {
             code = cz_resume_open(&search.arguments, search.folder, &search.journal);
         if (code == 0)
             code = search_and_finish(&search);
-        cz_outcome_free(search.outcome);
+        if (search.robust == NULL)
+            cz_outcome_free(search.outcome);
+        cz_robust_free(search.robust);
         cz_session_end(&search.session);
     }
     cz_journal_end(search.journal, false);

@@ -75,15 +75,20 @@ int cz_session_read(CzSession *session, const CzArguments *arguments, const char
     return 0;
 }
 
+CzEvaluatorOptions cz_session_evaluator_options(const CzArguments *arguments) {
+    CzEvaluatorOptions options = cz_evaluator_options_default();
+    options.n_job = arguments->n_job;
+    options.scenario = arguments->text[CZ_OPTION_SCENARIO];
+    options.integrator = arguments->integrator;
+    return options;
+}
+
 int cz_session_begin(CzSession *session, const CzArguments *arguments, const char *file) {
     const double started = cz_clock();
     const int code = cz_session_read(session, arguments, file);
     if (code != 0)
         return code;
-    CzEvaluatorOptions options = cz_evaluator_options_default();
-    options.n_job = arguments->n_job;
-    options.scenario = arguments->text[CZ_OPTION_SCENARIO];
-    options.integrator = arguments->integrator;
+    const CzEvaluatorOptions options = cz_session_evaluator_options(arguments);
     CzError error = {0};
     if (cz_evaluator_build(session->problem, &options, &session->evaluator, &error) != CZ_OK)
         return cz_session_fail(session, &error);

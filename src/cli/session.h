@@ -24,6 +24,9 @@ extern const char *const cz_share_folder;
 /* Options for reading problem files: settings of the command line, folder of shipped data. */
 CzProblemOptions cz_session_problem_options(const CzArguments *arguments);
 
+/* Options of the evaluator of the command line. */
+CzEvaluatorOptions cz_session_evaluator_options(const CzArguments *arguments);
+
 /* Reads a problem file with the settings of the command line and reports its mistakes and warnings.
  * Returns the exit code, 0 on success; end with cz_session_end in any case. */
 CZ_MUST_CHECK int cz_session_read(CzSession *session, const CzArguments *arguments,

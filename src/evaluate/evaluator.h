@@ -41,8 +41,9 @@ CzConstraintKind cz_evaluator_constraint_kind(const CzEvaluator *evaluator, int 
  * file. Statuses: CZ_OK, CZ_STATUS_INPUT with the place, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_evaluator_check_start(const CzEvaluator *evaluator, CzError *error);
 
-/* Lets a search begin at a design x (n_variable) in place of the file's. */
-void cz_evaluator_set_start(CzEvaluator *evaluator, const double *x);
+/* Name of a variable whose value a scenario without reserves replaces, so that no design changes it
+ * there; NULL for none. */
+const char *cz_evaluator_fixed_by_change(const CzEvaluator *evaluator);
 
 /* The problem with a design's values, as read from a file with them; freed by the caller before the
  * evaluator's problem. Statuses: CZ_OK, CZ_STATUS_INPUT for a design that breaks a rule,

@@ -317,9 +317,15 @@ CzStatus cz_evaluator_check_start(const CzEvaluator *evaluator, CzError *error) 
     return check_start_vehicles(evaluator, error);
 }
 
-void cz_evaluator_set_start(CzEvaluator *evaluator, const double *x) {
-    for (int i = 0; i < evaluator->design.n_variable; i++)
-        evaluator->design.variable[i].info.start = x[i];
+const char *cz_evaluator_fixed_by_change(const CzEvaluator *evaluator) {
+    const CzDesign *design = &evaluator->design;
+    for (int i = 0; i < design->n_change; i++)
+        if (design->change[i].kind == CZ_CASE_VALUE)
+            for (int s = 0; s < evaluator->n_scene; s++)
+                if (evaluator->scene[s].variation == design->change[i].variation &&
+                    !evaluator->scene[s].has_reserves)
+                    return design->variable[design->change[i].variable].info.name;
+    return NULL;
 }
 
 CzStatus cz_evaluator_read_design(const CzEvaluator *evaluator, const double *x,

@@ -43,8 +43,10 @@ static CzStatus run_bench(const Sampler *sampler, const CzCaseBench *bench, int 
                           const int *sample, CzError *error) {
     CzEvaluation evaluation = {0};
     cz_evaluator_set_stop(bench->evaluator, sampler->options->stop);
-    CzStatus status =
-        cz_evaluator_again(bench->evaluator, &bench->evaluator->manner, NULL, &evaluation, error);
+    CzManner manner = bench->evaluator->manner;
+    manner.brief = sampler->options->brief;
+    manner.track = manner.brief ? CZ_TRACK_USE_SEARCH : manner.track;
+    CzStatus status = cz_evaluator_again(bench->evaluator, &manner, NULL, &evaluation, error);
     if (status == CZ_OK && sample[0] == CZ_UNCHANGED_CASE)
         cz_sampling_keep_bare(sampler->sampling, bench, &evaluation);
     for (int k = 0; status == CZ_OK && sample[0] != CZ_UNCHANGED_CASE && k < n; k++)
@@ -171,11 +173,11 @@ static CzStatus run_nominal(const Sampler *sampler, CzError *error) {
 }
 
 static CzStatus read_problem(const char *file, const CzProblemOptions *problem_options,
-                             const CzSampleOptions *options, CzSampling *sampling, CzError *error) {
+                             const CzSampleOptions *options, CzProblem **problem, CzError *error) {
     return options->text != NULL
                ? cz_problem_read_text(options->text, options->n_text, "<standard input>", ".",
-                                      problem_options, &sampling->problem, error)
-               : cz_problem_read(file, problem_options, &sampling->problem, error);
+                                      problem_options, problem, error)
+               : cz_problem_read(file, problem_options, problem, error);
 }
 
 static CzStatus sample(Sampler *sampler, CzError *error) {
@@ -191,27 +193,51 @@ static CzStatus sample(Sampler *sampler, CzError *error) {
     return cz_sampling_conclude(sampler->sampling, error);
 }
 
+/* An empty sampling; NULL without memory. */
+static CzSampling *create(void) {
+    CzSampling *sampling = calloc(1, sizeof *sampling);
+    if (sampling != NULL)
+        sampling->parts = calloc(1, sizeof *sampling->parts);
+    if (sampling == NULL || sampling->parts != NULL)
+        return sampling;
+    cz_sampling_free(sampling);
+    return NULL;
+}
+
+/* Passes a sampling on, or frees it where the status is a failure; returns the status. */
+static CzStatus pass_on(CzSampling *made, double started, CzStatus status, CzSampling **sampling) {
+    made->wall_s = cz_clock() - started;
+    *sampling = status == CZ_OK ? made : NULL;
+    if (status != CZ_OK)
+        cz_sampling_free(made);
+    return status;
+}
+
 CzStatus cz_sample(const char *file, const CzProblemOptions *problem_options,
                    const CzSampleOptions *options, CzSampling **sampling, CzError *error) {
     const double started = cz_clock();
     const CzProblemOptions none = cz_problem_options_default();
-    *sampling = calloc(1, sizeof **sampling);
-    if (*sampling == NULL || ((*sampling)->parts = calloc(1, sizeof(CzSamplingParts))) == NULL) {
-        cz_sampling_free(*sampling);
-        *sampling = NULL;
+    CzSampling *made = *sampling = create();
+    if (made == NULL)
         return cz_no_memory(error, "a sampling");
-    }
-    Sampler sampler = {.options = options, .sampling = *sampling};
+    Sampler sampler = {.options = options, .sampling = made};
     CzStatus status = read_problem(file, problem_options != NULL ? problem_options : &none, options,
-                                   *sampling, error);
+                                   &made->own_problem, error);
+    made->problem = made->own_problem;
     if (status == CZ_OK)
         status = sample(&sampler, error);
-    (*sampling)->wall_s = cz_clock() - started;
-    if (status == CZ_OK)
-        return CZ_OK;
-    cz_sampling_free(*sampling);
-    *sampling = NULL;
-    return status;
+    return pass_on(made, started, status, sampling);
+}
+
+CzStatus cz_sample_problem(const CzProblem *problem, const CzSampleOptions *options,
+                           CzSampling **sampling, CzError *error) {
+    const double started = cz_clock();
+    CzSampling *made = *sampling = create();
+    if (made == NULL)
+        return cz_no_memory(error, "a sampling");
+    Sampler sampler = {.options = options, .sampling = made};
+    made->problem = problem;
+    return pass_on(made, started, sample(&sampler, error), sampling);
 }
 
 void cz_sampling_free(CzSampling *sampling) {
@@ -224,7 +250,7 @@ void cz_sampling_free(CzSampling *sampling) {
         cz_evaluator_free(sampling->parts->evaluator);
         cz_arena_free(&sampling->parts->arena);
     }
-    cz_problem_free(sampling->problem);
+    cz_problem_free(sampling->own_problem);
     free(sampling->value);
     free(sampling->sample);
     free(sampling->margin);

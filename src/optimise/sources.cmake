@@ -7,13 +7,14 @@ set(CZ_SOURCES_optimise
     challenge_search.c
     challenge_weak.c
     combinations.c
-    gauss_newton.c
     linear_program.c
     nlopt_adapter.c
     optimise.c
     outcome.c
     pareto.c
     replay.c
+    robust.c
+    robust_cases.c
     sample.c
     search.c
     sensitivity.c

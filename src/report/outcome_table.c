@@ -7,6 +7,7 @@
 #include "report/figure.h"
 #include "report/outcome_table.h"
 #include "report/overlay.h"
+#include "report/robust_table.h"
 #include "report/tables.h"
 
 #include <math.h>
@@ -262,6 +263,8 @@ void cz_outcome_write_table(const CzReport *report, CzTerminal *terminal) {
     cz_checks_write_table(&outcome->best_evaluation, &outcome->start_evaluation, terminal);
     write_violations(evaluator, outcome, terminal);
     write_verification(outcome->verification, terminal);
+    if (report->robust != NULL)
+        cz_robust_write_table(report->robust, terminal);
 
     fputs("\nNew values:\n", terminal->stream);
     if (cz_overlay_write_values(report, false, terminal->stream, NULL) == CZ_OK)

@@ -10,6 +10,7 @@
 #include "report/outcome_table.h"
 #include "report/overlay.h"
 #include "report/plot.h"
+#include "report/robust_table.h"
 #include "report/runs.h"
 
 #include <math.h>
@@ -209,6 +210,8 @@ static CzStatus write_page(CzPage *page, const CzReport *report, CzError *error)
     cz_page_write_checks(markup, &outcome->best_evaluation, &outcome->start_evaluation);
     cz_markup_write(markup, "</section>\n");
     write_variables(markup, report);
+    if (report->robust != NULL)
+        cz_robust_write_page(report->robust, markup);
     write_active(markup, report);
     cz_page_write_sensitivities(markup, report);
     write_verification(markup, outcome->verification);

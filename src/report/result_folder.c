@@ -4,6 +4,7 @@
 #include "crushzone/report.h"
 
 #include "base/error.h"
+#include "evaluate/evaluator.h"
 #include "text/node.h"
 #include "problem/problem.h"
 #include "report/challenge_files.h"
@@ -347,6 +348,20 @@ static CzStatus write_challenge(CzFolder *folder, const Results *results, CzErro
                        error);
 }
 
+/* The samples of the best design of a search against scatter. */
+static CzStatus write_samples_of(CzFolder *folder, const Results *results, CzError *error) {
+    static const File files[] = {
+        {"sample.json", SAMPLE}, {"samples.csv", SAMPLES}, {"samples.html", SAMPLE_REPORT}};
+    const CzRobust *robust = results->report->robust;
+    const CzReport report = {.kind = CZ_REPORT_SAMPLE,
+                             .options = results->report->options,
+                             .problem = robust->designed,
+                             .sampling = robust->sampling};
+    Results of_samples = *results;
+    of_samples.report = &report;
+    return write_files(folder, 3, files, &of_samples, error);
+}
+
 static CzStatus write_all(CzFolder *folder, Results *results, CzError *error) {
     static const File files[] = {{"summary.json", SUMMARY},   {"checks.csv", CHECKS},
                                  {"resolved.yaml", RESOLVED}, {"run.log", RUN_LOG},
@@ -365,6 +380,8 @@ static CzStatus write_all(CzFolder *folder, Results *results, CzError *error) {
     CZ_TRY(write_files(folder, results->report->outcome != NULL ? 7 : 4, files, results, error));
     if (results->report->outcome != NULL && cz_report_options_of(results->report)->journal != NULL)
         CZ_TRY(write_file(folder, "history.jsonl", JOURNAL, results, error));
+    if (results->report->robust != NULL)
+        CZ_TRY(write_samples_of(folder, results, error));
     CZ_TRY(write_profiles(folder, results, error));
     CZ_TRY(write_measured(folder, results, error));
     for (int i = 0; i < results->run.evaluation->n_run; i++)
@@ -409,7 +426,10 @@ CzStatus cz_report_write_folder(const CzReport *report, const char *folder, CzEr
         return write_folder(&results, error);
     CzProblem *best = NULL;
     CzError mistake = {0}; /* a file may have changed meanwhile: then there is no report */
-    const CzStatus read = cz_overlay_read_best(report, &best, &mistake);
+    const CzStatus read =
+        report->robust != NULL
+            ? cz_evaluator_read_design(report->evaluator, report->outcome->best, &best, &mistake)
+            : cz_overlay_read_best(report, &best, &mistake);
     results.run.kind = CZ_REPORT_RUN;
     results.run.evaluation = &report->outcome->best_evaluation;
     results.computed = read == CZ_OK ? best : NULL;

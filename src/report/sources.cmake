@@ -47,6 +47,7 @@ set(CZ_SOURCES_report
     result_list.c
     result_reference.c
     results.c
+    robust_table.c
     run_table.c
     sample_figures.c
     sample_replay.c

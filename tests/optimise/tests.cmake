@@ -11,3 +11,4 @@ cz_test(test_pareto optimise test_pareto.c tests/evaluate/stand_in.c tests/evalu
 cz_test(test_linear_program optimise test_linear_program.c)
 cz_test(test_bench_designs optimise test_bench_designs.c)
 cz_test(test_challenge optimise test_challenge.c)
+cz_test(test_robust optimise test_robust.c)

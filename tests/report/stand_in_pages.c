@@ -1,4 +1,5 @@
 /* Stand-ins for pages: one line in place of each. */
+#include "evaluate/evaluator.h"
 #include "report/page.h"
 #include "report/page_challenge.h"
 #include "report/page_pareto.h"
@@ -48,4 +49,13 @@ CzStatus cz_page_write_outcome(const CzReport *report, FILE *stream, CzError *er
     (void)error;
     fputs("report of a search\n", stream);
     return CZ_OK;
+}
+
+CzStatus cz_evaluator_read_design(const CzEvaluator *evaluator, const double *x,
+                                  CzProblem **problem, CzError *error) {
+    (void)evaluator;
+    (void)x;
+    (void)error;
+    *problem = NULL;
+    return CZ_STATUS_INPUT;
 }

@@ -1,0 +1,467 @@
+/* Searches round by round, each with the samples and weak points that broke the design before. */
+#include "crushzone/robust.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "evaluate/evaluator.h"
+#include "evaluate/sampling.h"
+#include "optimise/combinations.h"
+#include "optimise/outcome.h"
+#include "optimise/robust_cases.h"
+
+enum {
+    MOST_ROUNDS = 24,
+    FEWEST_EVALUATIONS = 12, /* of a round (ours) */
+    MOST_IDLE = 3            /* rounds without progress at the end (ours) */
+};
+
+/* What designs are ranked by. */
+enum { NOMINAL, SAMPLES, VIOLATION, OBJECTIVE, N_KEY };
+
+/* The search, while it runs. */
+typedef struct Robust {
+    const CzProblem *problem;
+    const CzEvaluatorOptions *evaluator_options;
+    CzOptimiseOptions options; /* settled */
+    CzEvaluator *plain;        /* of the problem as written */
+    CzRobustCases cases;
+    int n_variable;
+    long n_trial;
+    CzTrial *trial;    /* of all rounds (n_trial) */
+    double *trial_x;   /* (n_trial x n_variable) */
+    double *x, *best;  /* design of the round, best of all rounds (n_variable) */
+    double key[N_KEY]; /* rank of the best design */
+    long n_answered;   /* answers of the journal that were used */
+    double seen; /* smallest margin that the last search saw; 0 when it minimises something else */
+    bool has_improved; /* the last round found the best design */
+    int n_idle; /* rounds without a new scenario and without a better design, up to the last */
+    CzRobust *result;
+} Robust;
+
+bool cz_robust_is_asked(const CzProblem *problem) {
+    const CzInput *input = cz_problem_input(problem);
+    const CzUncertainty *uncertainty = &input->uncertainty;
+    return input->optimise.given && input->optimise.n_variables > 0 &&
+           input->optimise.n_match == 0 && uncertainty->given &&
+           uncertainty->n_parameters + uncertainty->n_envelope > 0;
+}
+
+static bool is_stopped(const Robust *robust) {
+    return robust->options.stop != NULL && *robust->options.stop != 0;
+}
+
+/* ---- progress -------------------------------------------------------------------------------- */
+
+/* Passes the progress of a round on as that of the whole search. */
+static void show_search(const CzProgress *progress, void *data) {
+    const Robust *robust = data;
+    CzProgress whole = *progress;
+    whole.n_evaluation += robust->n_trial;
+    whole.most_evaluations = robust->options.evaluations;
+    robust->options.progress(&whole, robust->options.progress_data);
+}
+
+/* Shows that samples or the adversary run. */
+static void show_phase(const Robust *robust, const char *phase) {
+    const CzProgress progress = {.n_evaluation = robust->n_trial,
+                                 .most_evaluations = robust->options.evaluations,
+                                 .feasible =
+                                     robust->result->sampling != NULL && robust->key[NOMINAL] <= 0,
+                                 .best_objective = robust->key[OBJECTIVE],
+                                 .best_violation = robust->key[NOMINAL],
+                                 .phase = phase};
+    if (robust->options.progress != NULL)
+        robust->options.progress(&progress, robust->options.progress_data);
+}
+
+/* ---- the search of a round ------------------------------------------------------------------- */
+
+/* The problem with all cases, and its evaluator, in the result. */
+static CzStatus build(Robust *robust, CzError *error) {
+    CzRobust *result = robust->result;
+    cz_evaluator_free(result->evaluator);
+    cz_problem_free(result->problem);
+    result->evaluator = NULL;
+    result->problem = NULL;
+    CZ_TRY(cz_problem_read_cases(robust->problem, robust->cases.n, robust->cases.list,
+                                 &result->problem, error));
+    CZ_TRY(
+        cz_evaluator_build(result->problem, robust->evaluator_options, &result->evaluator, error));
+    const char *fixed = cz_evaluator_fixed_by_change(result->evaluator);
+    return fixed == NULL
+               ? CZ_OK
+               : cz_fail(error, CZ_STATUS_INPUT,
+                         "the scatter of '%s' replaces the value of a design variable: give "
+                         "it a tolerance instead of a range or values",
+                         fixed);
+}
+
+/* Appends the history of a round. */
+static CzStatus keep_history(Robust *robust, const CzCombinations *combinations, CzError *error) {
+    long n = robust->n_trial;
+    for (int k = 0; k < combinations->n; k++)
+        n += combinations->subspace[k].search.n_record;
+    const size_t size = (size_t)robust->n_variable * sizeof(double);
+    CzTrial *trial = realloc(robust->trial, ((size_t)n + 1) * sizeof *trial);
+    robust->trial = trial != NULL ? trial : robust->trial;
+    double *x = realloc(robust->trial_x, ((size_t)n + 1) * size);
+    robust->trial_x = x != NULL ? x : robust->trial_x;
+    if (trial == NULL || x == NULL)
+        return cz_no_memory(error, "the history");
+    for (int k = 0; k < combinations->n; k++) {
+        const CzSubspace *subspace = &combinations->subspace[k];
+        for (long i = 0; i < subspace->search.n_record; i++) {
+            const CzRecord *record = &subspace->search.record[i];
+            cz_subspace_expand(subspace, cz_search_x(&subspace->search, i),
+                               x + robust->n_trial * robust->n_variable);
+            trial[robust->n_trial++] = (CzTrial){.objective = record->objective,
+                                                 .violation = record->violation,
+                                                 .feasible = record->violation <= 0,
+                                                 .phase = record->phase};
+        }
+    }
+    return CZ_OK;
+}
+
+/* Evaluations of the next round: a third of all for the first, then an eighth, and half of what is
+ * left after a round without progress (ours). */
+static long evaluations_of(const Robust *robust) {
+    const long all = robust->options.evaluations, left = all - robust->n_trial;
+    const bool is_first = robust->result->n_round == 0;
+    const long share = is_first ? all / 3 : robust->n_idle > 0 ? left / 2 : all / 8;
+    const long wanted = share > FEWEST_EVALUATIONS ? share : FEWEST_EVALUATIONS;
+    return wanted < left ? wanted : left;
+}
+
+/* Searches with all cases, from the best design; the result is in robust->x. */
+static CzStatus search(Robust *robust, CzRobustRound *round, CzError *error) {
+    CzEvaluator *evaluator = robust->result->evaluator;
+    CzOptimiseOptions options = robust->options;
+    CzCombinations combinations;
+    CzJournal journal;
+    if (options.journal != NULL) {
+        journal = *options.journal;
+        journal.answer += robust->n_answered;
+        journal.n_answer -= robust->n_answered;
+        journal.n_earlier = robust->result->n_round == 0 ? journal.n_earlier : 0;
+        options.journal = &journal;
+    }
+    options.evaluations = evaluations_of(robust);
+    options.progress = options.progress != NULL ? show_search : NULL;
+    options.progress_data = robust;
+    options.start = robust->best;
+    cz_evaluator_set_stop(evaluator, options.stop);
+    CzStatus status = cz_combinations(evaluator, &options, &combinations, error);
+    cz_evaluator_set_stop(evaluator, NULL);
+    robust->n_answered += combinations.replay.next;
+    if (status == CZ_OK) {
+        const CzSubspace *chosen = &combinations.subspace[combinations.chosen];
+        const long record = cz_combinations_record(&chosen->search);
+        const long before = robust->n_trial;
+        robust->seen = record >= 0 && cz_evaluator_maximises_margin(evaluator)
+                           ? -chosen->search.record[record].objective
+                           : 0;
+        if (record >= 0)
+            cz_subspace_expand(chosen, cz_search_x(&chosen->search, record), robust->x);
+        else
+            memcpy(robust->x, robust->best, (size_t)robust->n_variable * sizeof *robust->x);
+        status = keep_history(robust, &combinations, error);
+        round->n_evaluation = robust->n_trial - before;
+    }
+    cz_combinations_free(&combinations);
+    return status;
+}
+
+/* ---- the judgement of a round ---------------------------------------------------------------- */
+
+/* Samples a design; brief runs tell what breaks it, whole ones that it holds. */
+static CzStatus sample(const Robust *robust, const CzProblem *designed, bool brief,
+                       CzSampling **sampling, CzError *error) {
+    CzSampleOptions options = cz_sample_options_default();
+    options.brief = brief;
+    options.n_job = robust->evaluator_options != NULL ? robust->evaluator_options->n_job : 0;
+    options.stop = robust->options.stop;
+    show_phase(robust, "samples");
+    return cz_sample_problem(designed, &options, sampling, error);
+}
+
+/* Asks the adversary. */
+static CzStatus challenge(const Robust *robust, const CzProblem *designed, CzChallenge **challenge,
+                          CzError *error) {
+    CzChallengeOptions options = cz_challenge_options_default();
+    options.n_job = robust->evaluator_options != NULL ? robust->evaluator_options->n_job : 0;
+    options.stop = robust->options.stop;
+    options.most_weak = CZ_ROBUST_MOST_NEW;
+    show_phase(robust, "adversary");
+    return cz_challenge(designed, NULL, &options, challenge, error);
+}
+
+/* Smallest margin of the scenarios of the file. */
+static double nominal_margin(const CzSampling *sampling) {
+    double smallest = INFINITY;
+    for (int i = 0; i < sampling->nominal.n_check; i++)
+        smallest = fmin(smallest, sampling->nominal.check[i].margin); /* ignores NaN */
+    return smallest;
+}
+
+/* ---- rounds ---------------------------------------------------------------------------------- */
+
+/* Largest violation of the statistic of a check. */
+static double violation_in(const CzSampling *sampling) {
+    double worst = 0;
+    for (int c = 0; c < sampling->n_check; c++)
+        worst = fmax(worst, cz_robust_violation(&sampling->check[c]));
+    return worst;
+}
+
+/* What a round found about its design. */
+typedef struct Found {
+    CzProblem *designed;
+    CzSampling *sampling;
+    CzChallenge *challenge;
+} Found;
+
+static void free_found(Found *found) {
+    cz_challenge_free(found->challenge);
+    cz_sampling_free(found->sampling);
+    cz_problem_free(found->designed);
+    *found = (Found){0};
+}
+
+/* Samples the design of the round; by whole runs when it holds by brief ones. */
+static CzStatus sample_round(Robust *robust, Found *found, CzError *error) {
+    CZ_TRY(cz_evaluator_read_design(robust->plain, robust->x, &found->designed, error));
+    CZ_TRY(sample(robust, found->designed, true, &found->sampling, error));
+    if (violation_in(found->sampling) > 0 || is_stopped(robust))
+        return CZ_OK;
+    cz_sampling_free(found->sampling);
+    found->sampling = NULL;
+    return sample(robust, found->designed, false, &found->sampling, error);
+}
+
+static void fill_round(CzRobustRound *round, const CzSampling *sampling) {
+    round->nominal_margin = nominal_margin(sampling);
+    round->required_margin = INFINITY;
+    for (int c = 0; c < sampling->n_check; c++)
+        round->required_margin = fmin(round->required_margin, sampling->check[c].required);
+    round->n_sample = sampling->n_run;
+    round->n_pass = sampling->passing.n_pass;
+}
+
+/* Ranks a design: the first difference decides, the smaller value is better. Nominal constraints
+ * come first, then the samples that fail, the violation of their statistics, the objective. */
+static void rank(const Robust *robust, const CzRobustRound *round, const Found *found,
+                 double key[N_KEY]) {
+    const CzEvaluation *nominal = &found->sampling->nominal;
+    const bool is_broken = found->challenge != NULL && found->challenge->is_broken;
+    key[NOMINAL] = fmax(nominal->violation, 0);
+    key[SAMPLES] = violation_in(found->sampling) > 0 ? round->n_sample - round->n_pass : 0;
+    key[VIOLATION] = fmax(violation_in(found->sampling), is_broken ? CZ_ROBUST_NEAR : 0);
+    key[OBJECTIVE] = nominal->objective;
+    if (cz_evaluator_maximises_margin(robust->plain))
+        key[OBJECTIVE] = -fmin(-nominal->objective, round->required_margin);
+}
+
+/* Takes the design of a round as the best one when it is better. */
+static void compare(Robust *robust, Found *found) {
+    CzRobust *result = robust->result;
+    const CzRobustRound *round = &result->round[result->n_round - 1];
+    double key[N_KEY];
+    rank(robust, round, found, key);
+    int k = 0;
+    while (k + 1 < N_KEY && key[k] == robust->key[k])
+        k++;
+    robust->has_improved = result->sampling == NULL || key[k] < robust->key[k];
+    if (!robust->has_improved)
+        return;
+    const Found former = {result->designed, result->sampling, result->challenge};
+    result->designed = found->designed;
+    result->sampling = found->sampling;
+    result->challenge = found->challenge;
+    *found = former;
+    memcpy(robust->key, key, sizeof key);
+    memcpy(robust->best, robust->x, (size_t)robust->n_variable * sizeof *robust->best);
+    for (int i = 0; i < result->n_round; i++)
+        result->round[i].is_best = i == result->n_round - 1;
+}
+
+/* Whether the best design holds in all samples, and the adversary did not break it. */
+static bool holds(const Robust *robust) {
+    return robust->key[NOMINAL] <= 0 && robust->key[SAMPLES] <= 0 && robust->key[VIOLATION] <= 0;
+}
+
+/* Judges the design of the round and takes further scenarios from what breaks it; *n_new is their
+ * number. */
+static CzStatus judge(Robust *robust, CzRobustRound *round, Found *found, int *n_new,
+                      CzError *error) {
+    const CzUncertainty *uncertainty = &cz_problem_input(robust->problem)->uncertainty;
+    CZ_TRY(sample_round(robust, found, error));
+    const CzSampling *sampling = found->sampling;
+    fill_round(round, sampling);
+    const double limit = robust->seen > CZ_ROBUST_NEAR ? robust->seen - CZ_ROBUST_NEAR : 0;
+    const bool is_held = violation_in(sampling) <= 0 && sampling->nominal.violation <= 0;
+    if (!is_held || round->required_margin < limit)
+        *n_new = cz_robust_add_samples(&robust->cases, sampling, limit);
+    if (is_held && uncertainty->n_envelope > 0 && !is_stopped(robust))
+        CZ_TRY(challenge(robust, found->designed, &found->challenge, error));
+    if (found->challenge != NULL) {
+        round->n_weak = found->challenge->is_broken ? found->challenge->n_weak : 0;
+        *n_new += cz_robust_add_weak_points(&robust->cases, found->challenge);
+    }
+    compare(robust, found);
+    return CZ_OK;
+}
+
+static CzStatus run_round(Robust *robust, bool *goes_on, CzError *error) {
+    CzRobust *result = robust->result;
+    CzRobustRound *rounds = realloc(result->round, (size_t)(result->n_round + 1) * sizeof *rounds);
+    if (rounds == NULL)
+        return cz_no_memory(error, "the rounds");
+    result->round = rounds;
+    CzRobustRound *round = &rounds[result->n_round];
+    *round = (CzRobustRound){.n_weak = -1};
+    int n_new = 0;
+    CZ_TRY(build(robust, error));
+    round->n_scenario = cz_problem_n_scenario(result->problem);
+    CZ_TRY(search(robust, round, error));
+    result->n_round++;
+    Found found = {0};
+    const CzStatus status = judge(robust, round, &found, &n_new, error);
+    free_found(&found);
+    if (status != CZ_OK)
+        return status;
+    const bool has_more = robust->options.evaluations - robust->n_trial >= FEWEST_EVALUATIONS &&
+                          result->n_round < MOST_ROUNDS;
+    robust->n_idle = n_new > 0 || robust->has_improved ? 0 : robust->n_idle + 1;
+    *goes_on = has_more && !(holds(robust) && n_new == 0) && robust->n_idle < MOST_IDLE &&
+               !is_stopped(robust);
+    robust->options.seed++; /* a further round begins with other points */
+    return CZ_OK;
+}
+
+/* ---- the outcome ----------------------------------------------------------------------------- */
+
+static void conclude(const Robust *robust, CzOutcome *outcome) {
+    const CzRobust *result = robust->result;
+    const bool has_envelope = cz_problem_input(robust->problem)->uncertainty.n_envelope > 0;
+    const bool is_challenged = result->challenge != NULL && !result->challenge->is_interrupted;
+    const char *why = "the design holds in all samples";
+    outcome->status = CZ_OUTCOME_INFEASIBLE;
+    if (is_stopped(robust)) {
+        outcome->status = CZ_OUTCOME_INTERRUPTED;
+        why = "interrupted";
+    } else if (result->sampling->nominal.violation > 0 ||
+               outcome->best_evaluation.status != CZ_OK) {
+        why = "the best design fails in the scenarios of the file";
+    } else if (violation_in(result->sampling) > 0) {
+        why = "the best design fails in samples";
+    } else if (!holds(robust)) {
+        why = "the adversary breaks the best design";
+    } else if (has_envelope && !is_challenged) {
+        why = "the best design was not challenged";
+    } else if (outcome->best_evaluation.violation > 0) {
+        why = "the best design fails in a scenario that was added";
+    } else {
+        outcome->status = CZ_OUTCOME_FEASIBLE;
+        if (has_envelope)
+            why = "the design holds in all samples, and the adversary does not break it";
+    }
+    const long left = robust->options.evaluations - robust->n_trial;
+    snprintf(outcome->why_stopped, sizeof outcome->why_stopped, "%s%s", why,
+             outcome->status == CZ_OUTCOME_INFEASIBLE && left < FEWEST_EVALUATIONS
+                 ? "; no evaluations are left"
+                 : "");
+}
+
+/* The samples of the best design by whole runs, where they were brief. */
+static CzStatus sample_best(Robust *robust, CzError *error) {
+    CzRobust *result = robust->result;
+    CzSampling *whole = NULL;
+    if (holds(robust) || is_stopped(robust))
+        return CZ_OK;
+    CZ_TRY(sample(robust, result->designed, false, &whole, error));
+    cz_sampling_free(result->sampling);
+    result->sampling = whole;
+    return CZ_OK;
+}
+
+static CzStatus fill_outcome(Robust *robust, CzError *error) {
+    CzRobust *result = robust->result;
+    const size_t n = (size_t)robust->n_variable, n_trial = (size_t)robust->n_trial;
+    CZ_TRY(sample_best(robust, error));
+    CZ_TRY(build(robust, error));
+    CZ_TRY(cz_outcome_create(result->evaluator, robust->n_trial, &result->outcome, error));
+    CzOutcome *outcome = result->outcome;
+    memcpy(outcome->best, robust->best, n * sizeof *outcome->best);
+    memcpy(outcome->trial, robust->trial, n_trial * sizeof *outcome->trial);
+    memcpy(outcome->trial_x, robust->trial_x, n_trial * n * sizeof *outcome->trial_x);
+    cz_outcome_mark_bounds(result->evaluator, outcome);
+    CZ_TRY(
+        cz_evaluate(result->evaluator, 1, outcome->start, true, &outcome->start_evaluation, error));
+    CZ_TRY(
+        cz_evaluate(result->evaluator, 1, outcome->best, true, &outcome->best_evaluation, error));
+    conclude(robust, outcome);
+    CZ_TRY(cz_outcome_verify(result->evaluator, &robust->options, outcome, error));
+    return cz_sensitivity_take(result->evaluator, robust->options.stop, outcome, error);
+}
+
+static CzStatus run(Robust *robust, CzError *error) {
+    bool goes_on = true;
+    CZ_TRY(cz_evaluator_build(robust->problem, robust->evaluator_options, &robust->plain, error));
+    CZ_TRY(cz_optimise_settle(robust->plain, &robust->options, error));
+    robust->n_variable = cz_evaluator_n_variable(robust->plain);
+    const size_t n = (size_t)robust->n_variable;
+    robust->x = calloc(2 * n, sizeof *robust->x);
+    if (robust->x == NULL)
+        return cz_no_memory(error, "the designs");
+    robust->best = robust->x + n;
+    for (size_t i = 0; i < n; i++)
+        robust->best[i] = robust->options.start != NULL
+                              ? robust->options.start[i]
+                              : cz_evaluator_variable(robust->plain, (int)i)->start;
+    while (goes_on)
+        CZ_TRY(run_round(robust, &goes_on, error));
+    return fill_outcome(robust, error);
+}
+
+CzStatus cz_optimise_robust(const CzProblem *problem, const CzEvaluatorOptions *evaluator_options,
+                            const CzOptimiseOptions *options, CzRobust **result, CzError *error) {
+    const double began = cz_clock();
+    Robust robust = {.problem = problem,
+                     .evaluator_options = evaluator_options,
+                     .options = options != NULL ? *options : cz_optimise_options_default()};
+    *result = robust.result = calloc(1, sizeof **result);
+    if (*result == NULL)
+        return cz_no_memory(error, "a search");
+    const CzStatus status = run(&robust, error);
+    cz_arena_free(&robust.cases.arena);
+    cz_evaluator_free(robust.plain);
+    free(robust.trial);
+    free(robust.trial_x);
+    free(robust.x);
+    if (status == CZ_OK) {
+        (*result)->outcome->wall_s = cz_clock() - began;
+        return CZ_OK;
+    }
+    cz_robust_free(*result);
+    *result = NULL;
+    return status;
+}
+
+void cz_robust_free(CzRobust *robust) {
+    if (robust == NULL)
+        return;
+    cz_outcome_free(robust->outcome);
+    cz_challenge_free(robust->challenge);
+    cz_sampling_free(robust->sampling);
+    cz_problem_free(robust->designed);
+    cz_evaluator_free(robust->evaluator);
+    cz_problem_free(robust->problem);
+    free(robust->round);
+    free(robust);
+}

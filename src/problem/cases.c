@@ -1,10 +1,13 @@
-/* Reads a problem again with further scenarios. */
+/* Reads a problem again with further scenarios, or with other stages of a device. */
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
 #include "base/number.h"
 #include "problem/changes.h"
+#include "problem/keys.h"
 #include "tree/merge.h"
 
 /* Context for writing scenarios as nodes. */
@@ -140,4 +143,69 @@ CzStatus cz_problem_read_cases(const CzProblem *problem, int n_case, const CzCas
     else
         cz_problem_free(made);
     return status == CZ_STATUS_NO_MEMORY ? cz_no_memory(error, "the cases") : status;
+}
+
+/* ---- other stages of a device ---- */
+
+static const CzNode *make_stage(const Writer *writer, const CzStage *stage) {
+    const char *zone = cz_word_sets[CZ_WORDS_ZONE].word[stage->zone].word;
+    CzNode *node = make_node(writer, CZ_NODE_MAPPING, 4);
+    const bool is_made = put(writer, node, "stroke_m", number(writer, stage->stroke)) &&
+                         put(writer, node, "force_N", number(writer, stage->force)) &&
+                         put(writer, node, "zone", text(writer, zone)) &&
+                         (isnan(stage->end_force) ||
+                          put(writer, node, "end_force_N", number(writer, stage->end_force)));
+    return is_made ? node : NULL;
+}
+
+/* The setting that replaces the stages at a place; false without memory. */
+static bool set_stages(CzProblem *made, const char *place, int n_stage, const CzStage *stage,
+                       CzSetting *setting) {
+    CzReader *reader = &made->reader;
+    const CzSource *source = cz_sources_add(&reader->sources, "(stages)", ".", "", 0);
+    const Writer writer = {.arena = &reader->arena,
+                           .place = {.source = source, .line = 1, .column = 1}};
+    char path[CZ_PATH_ROOM + 8];
+    snprintf(path, sizeof path, "%s.stages", place);
+    const char *copy = cz_arena_copy_text(&reader->arena, path, strlen(path));
+    CzNode *list = source != NULL ? make_node(&writer, CZ_NODE_LIST, n_stage) : NULL;
+    if (copy == NULL || list == NULL)
+        return false;
+    for (int i = 0; i < n_stage; i++) {
+        const CzNode *node = make_stage(&writer, &stage[i]);
+        if (node == NULL)
+            return false;
+        list->entry[list->n_entry++] = (CzEntry){.value = node, .trail = &cz_no_trail};
+    }
+    *setting = (CzSetting){.path = copy,
+                           .place = cz_node_text(&reader->arena, copy, &writer.place),
+                           .put = {.kind = CZ_PUT_VALUE, .value = list},
+                           .is_late = cz_change_is_late(place)};
+    return setting->place != NULL;
+}
+
+CzStatus cz_problem_read_stages(const CzProblem *problem, const char *place, int n_stage,
+                                const CzStage *stage, CzProblem **made, CzError *error) {
+    CzSetting *setting = NULL;
+    const void *field = NULL;
+    *made = NULL;
+    CzProblem *again = cz_problem_create_again(problem, 1, &setting);
+    if (again == NULL)
+        return cz_no_memory(error, "the stages of a device");
+    CzStatus status = CZ_STATUS_NO_MEMORY;
+    if (set_stages(again, place, n_stage, stage, setting)) {
+        again->tree.root = cz_node_without(&again->reader.arena, again->tree.root, "optimise", 0);
+        if (again->tree.root != NULL)
+            cz_problem_bind(again, &again->tree);
+        status = cz_rules_check_again(again, error);
+    }
+    if (status == CZ_OK)
+        status = cz_changes_read(again, &field, error);
+    if (status == CZ_OK) {
+        cz_problem_take_files(again, problem);
+        *made = again;
+        return CZ_OK;
+    }
+    cz_problem_free(again);
+    return status == CZ_STATUS_NO_MEMORY ? cz_no_memory(error, "the stages of a device") : status;
 }

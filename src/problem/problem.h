@@ -161,6 +161,40 @@ CZ_MUST_CHECK CzStatus cz_problem_read_cases(const CzProblem *problem, int n_cas
                                              const CzCase *cases, CzProblem **extended,
                                              CzError *error);
 
+/* ---- devices ---- */
+
+/* A device that a part or a path names, at all its places, which have one curve. Borrowed from the
+ * problem. */
+typedef struct CzPlacedDevice {
+    char path[CZ_PATH_ROOM]; /* such as parts.front-zone; a key of the device follows */
+    const char *what;        /* such as "anti-climber" */
+    bool is_loading; /* the force of a stage is that at its end, as of buffers and ends; else a
+                        plateau */
+    int count;       /* devices side by side at each place; forces are of one of them */
+    int n_stage;
+    const CzStage *stage;  /* (n_stage) */
+    int most_stages;       /* that such a device may have */
+    double peak;           /* trigger or preload [N]; NaN for none */
+    const char *peak_key;  /* its key, such as "trigger_N" */
+    double trigger_length; /* of a plateau's trigger [m] */
+    int n_place;
+    const CzEnd *const *place; /* ends with the device; freed by cz_placed_device_free (n_place) */
+} CzPlacedDevice;
+
+/* Finds the device of a part by the part's name, or that of a path such as
+ * trains.A.vehicles.A6.front.anti_climber; of a part with one device in it, such as the tube of a
+ * coupler, that one. Statuses: CZ_OK, CZ_STATUS_INPUT with a did-you-mean, or when there are
+ * several, none, or none that a vehicle uses; CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_problem_find_device(const CzProblem *problem, const char *name,
+                                              CzPlacedDevice *device, CzError *error);
+void cz_placed_device_free(CzPlacedDevice *device);
+
+/* Reads the problem again with other stages at the path of a device, and without `optimise:`. As
+ * cz_problem_read_again. */
+CZ_MUST_CHECK CzStatus cz_problem_read_stages(const CzProblem *problem, const char *path,
+                                              int n_stage, const CzStage *stage, CzProblem **made,
+                                              CzError *error);
+
 /* A measured time history, borrowed from the problem. */
 typedef struct CzMeasured {
     int n_point;

@@ -5,6 +5,7 @@ set(CZ_SOURCES_problem
     bind.c
     bind_curve.c
     cases.c
+    device.c
     changes.c
     channel.c
     find.c

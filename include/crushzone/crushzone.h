@@ -13,6 +13,8 @@
  *
  *   problem file --> cz_sweep --> CzSweep (the same line for every value of a path) --> report
  *
+ *   problem file --> cz_corridor --> CzCorridor (what a supplier may deliver) --> report
+ *
  *   CzProblem --> cz_pareto --> CzPareto (a front of optima) --> report
  *
  *   measured curve --> CzFit --> stages of a problem file
@@ -25,6 +27,7 @@
 #include "crushzone/benchmark.h"
 #include "crushzone/challenge.h"
 #include "crushzone/channel.h"
+#include "crushzone/corridor.h"
 #include "crushzone/evaluate.h"
 #include "crushzone/explain.h"
 #include "crushzone/fit.h"

@@ -7,6 +7,13 @@ set(CZ_SOURCES_optimise
     challenge_search.c
     challenge_weak.c
     combinations.c
+    corridor.c
+    corridor_adversary.c
+    corridor_begin.c
+    corridor_curves.c
+    corridor_device.c
+    corridor_search.c
+    corridor_words.c
     linear_program.c
     nlopt_adapter.c
     optimise.c

@@ -19,6 +19,7 @@ include_arrows() {
                     public["status"] = public["names"] = "base"
                     public["channel"] = "problem"
                     public["challenge"] = "optimise"
+                    public["corridor"] = "optimise"
                     public["benchmark"] = public["sample"] = public["sweep"] = public["explain"] = public["verify"] = "evaluate"
                     public["robust"] = public["pareto"] = "optimise"
                     public["crushzone"] = "report"

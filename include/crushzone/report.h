@@ -10,6 +10,7 @@
 
 #include "crushzone/benchmark.h"
 #include "crushzone/challenge.h"
+#include "crushzone/corridor.h"
 #include "crushzone/explain.h"
 #include "crushzone/fit.h"
 #include "crushzone/optimise.h"
@@ -62,6 +63,7 @@ typedef enum CzReportKind {
     CZ_REPORT_SEARCH,       /* problem, evaluator, outcome */
     CZ_REPORT_SWEEP,        /* sweep */
     CZ_REPORT_SAMPLE,       /* problem, sampling */
+    CZ_REPORT_CORRIDOR,     /* corridor */
     CZ_REPORT_PARETO,       /* problem, pareto */
     CZ_REPORT_CHALLENGE,    /* problem, challenge */
     CZ_REPORT_VERIFICATION, /* problem, verification */
@@ -84,6 +86,7 @@ typedef struct CzReport {
     const CzRobust *robust; /* of a search against scatter, which has the outcome; else NULL */
     const CzSweep *sweep;
     const CzSampling *sampling;
+    const CzCorridor *corridor;
     const CzPareto *pareto;
     const CzChallenge *challenge;
     const CzVerification *verification;
@@ -116,6 +119,10 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_table(const CzReport *report, bool
  * CZ_STATUS_INPUT when no run was kept, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_page(const CzReport *report, FILE *stream,
                                                    CzError *error);
+
+/* The figure of a corridor as an SVG document. Status: CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_corridor(const CzCorridor *corridor, FILE *stream,
+                                                       CzError *error);
 
 /* The figure of a front as an SVG document. Status: CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_front(const CzPareto *pareto, FILE *stream,

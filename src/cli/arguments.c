@@ -246,6 +246,7 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
     CZ_TRY(read_whole(arguments, CZ_OPTION_SEED, 0, 2000000000, &arguments->seed, error));
     CZ_TRY(read_whole(arguments, CZ_OPTION_RUNS, 1, 1000000, &arguments->n_run, error));
     CZ_TRY(read_whole(arguments, CZ_OPTION_SAMPLES, 1, 1000000, &arguments->n_sample, error));
+    CZ_TRY(read_whole(arguments, CZ_OPTION_CURVES, 1, 10000, &arguments->n_curve, error));
     CZ_TRY(read_shard(arguments, error));
     CZ_TRY(read_whole(arguments, CZ_OPTION_STAGES, 0, 100, &n_stage, error));
     CZ_TRY(read_whole(arguments, CZ_OPTION_POINTS, 2, 99, &n_point, error));
@@ -321,6 +322,11 @@ static CzStatus check_operands(const CzArguments *arguments, CzError *error) {
         (arguments->n_vary < 1 || arguments->n_vary > CZ_MOST_AXES))
         return cz_fail(error, CZ_STATUS_INPUT,
                        "'crushzone sweep' needs --vary PATH=A:B:N once or twice");
+    if (arguments->command == CZ_COMMAND_CORRIDOR && arguments->text[CZ_OPTION_PART] == NULL)
+        return cz_fail(error, CZ_STATUS_INPUT,
+                       "'crushzone corridor' needs --part NAME" CZ_HELP
+                       "NAME is a part with stages, or a path such as "
+                       "trains.A.vehicles.A6.front.anti_climber");
     if (arguments->command == CZ_COMMAND_PARETO && arguments->n_minimise != 2 &&
         (arguments->n_minimise > 0 || arguments->text[CZ_OPTION_RESUME] == NULL))
         return cz_fail(error, CZ_STATUS_INPUT,

@@ -64,6 +64,7 @@ typedef struct CzArguments {
     long rounds;        /* 0: the default */
     long n_run;         /* 0: the default */
     long n_sample;      /* 0: that of the file */
+    long n_curve;       /* 0: the default */
     int shard, n_shard; /* 1 and 1: all samples */
     int n_point;        /* 0: the default */
     int n_stage;        /* -1: as many as the curve requires */

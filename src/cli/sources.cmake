@@ -7,6 +7,7 @@ set(CZ_SOURCES_cli
     arguments.c
     command_challenge.c
     command_fit.c
+    command_corridor.c
     command_figures.c
     command_new.c
     command_optimise.c

@@ -449,3 +449,20 @@ void cz_csv_write_challenge(const CzReport *report, FILE *stream) {
     for (int k = 0; k < challenge->n_point; k++)
         put_challenge_point(&table, challenge, k);
 }
+
+/* ---- corridors ---- */
+
+void cz_csv_write_corridor(const CzReport *report, FILE *stream) {
+    static const CzResult *const columns[] = {
+        CZ_RESULT_AT(CORRIDOR_POINT, stroke_mm), CZ_RESULT_AT(CORRIDOR_POINT, lower_kN),
+        CZ_RESULT_AT(CORRIDOR_POINT, nominal_kN), CZ_RESULT_AT(CORRIDOR_POINT, upper_kN)};
+    enum { n_column = sizeof columns / sizeof *columns };
+    CzResultContext context = {.report = report};
+    Table table = table_of(cz_report_options_of(report), stream);
+    put_keys(&table, n_column, columns);
+    end_row(&table);
+    for (int i = 0; i < report->corridor->n_point; i++) {
+        put_results(&table, n_column, columns, &context, &report->corridor->stroke[i]);
+        end_row(&table);
+    }
+}

@@ -17,6 +17,7 @@ void cz_csv_write_channels(const CzRun *run, const CzReportOptions *options, FIL
  * Draws and margins of samples have all digits, so that they can be read again. */
 void cz_csv_write_samples(const CzReport *report, FILE *stream);
 void cz_csv_write_challenge(const CzReport *report, FILE *stream);
+void cz_csv_write_corridor(const CzReport *report, FILE *stream);
 void cz_csv_write_sweep(const CzReport *report, FILE *stream);
 void cz_csv_write_pareto(const CzReport *report, FILE *stream);
 void cz_csv_write_history(const CzReport *report, FILE *stream);

@@ -8,19 +8,20 @@
 
 #include <stdlib.h>
 
-const CzRecord cz_document_records[CZ_N_REPORT] = {[CZ_REPORT_RUN] = CZ_RECORD_SUMMARY,
-                                                   [CZ_REPORT_SEARCH] = CZ_RECORD_OUTCOME,
-                                                   [CZ_REPORT_SWEEP] = CZ_RECORD_SWEEP,
-                                                   [CZ_REPORT_SAMPLE] = CZ_RECORD_SAMPLE,
-                                                   [CZ_REPORT_PARETO] = CZ_RECORD_PARETO,
-                                                   [CZ_REPORT_CHALLENGE] = CZ_RECORD_CHALLENGE,
-                                                   [CZ_REPORT_VERIFICATION] =
-                                                       CZ_RECORD_VERIFICATION,
-                                                   [CZ_REPORT_BENCHMARK] = CZ_RECORD_BENCHMARK,
-                                                   [CZ_REPORT_EXPLANATION] = CZ_RECORD_EXPLANATION,
-                                                   [CZ_REPORT_COMPARISON] = CZ_RECORD_COMPARISON,
-                                                   [CZ_REPORT_FIT] = CZ_RECORD_FIT,
-                                                   [CZ_REPORT_MISTAKES] = CZ_RECORD_MISTAKES};
+const CzRecord cz_document_records[CZ_N_REPORT] = {
+    [CZ_REPORT_RUN] = CZ_RECORD_SUMMARY,
+    [CZ_REPORT_SEARCH] = CZ_RECORD_OUTCOME,
+    [CZ_REPORT_SWEEP] = CZ_RECORD_SWEEP,
+    [CZ_REPORT_SAMPLE] = CZ_RECORD_SAMPLE,
+    [CZ_REPORT_PARETO] = CZ_RECORD_PARETO,
+    [CZ_REPORT_CHALLENGE] = CZ_RECORD_CHALLENGE,
+    [CZ_REPORT_CORRIDOR] = CZ_RECORD_CORRIDOR,
+    [CZ_REPORT_VERIFICATION] = CZ_RECORD_VERIFICATION,
+    [CZ_REPORT_BENCHMARK] = CZ_RECORD_BENCHMARK,
+    [CZ_REPORT_EXPLANATION] = CZ_RECORD_EXPLANATION,
+    [CZ_REPORT_COMPARISON] = CZ_RECORD_COMPARISON,
+    [CZ_REPORT_FIT] = CZ_RECORD_FIT,
+    [CZ_REPORT_MISTAKES] = CZ_RECORD_MISTAKES};
 
 /* The YAML text of a law, to be freed; NULL without memory. */
 static char *yaml_of(const CzFit *fit) {
@@ -79,6 +80,11 @@ CzStatus cz_report_write_json(const CzReport *report, FILE *stream, CzError *err
         context.problem = report->sampling->problem;
         context.wall_s = report->sampling->wall_s;
         data = report->sampling;
+        break;
+    case CZ_REPORT_CORRIDOR:
+        context.problem = report->corridor->problem;
+        context.wall_s = report->corridor->wall_s;
+        data = report->corridor;
         break;
     case CZ_REPORT_PARETO:
         context.wall_s = report->pareto->wall_s;

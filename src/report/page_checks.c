@@ -16,8 +16,7 @@ static const char *const verdict_title[] = {[CZ_VERDICT_PASS] = "PASS",
                                             [CZ_VERDICT_FAIL] = "FAIL",
                                             [CZ_VERDICT_NOT_CHECKED] = "NOT CHECKED"};
 
-/* Trains without limits, and requirements of the profile that are not checked. */
-static void write_not_covered(CzMarkup *markup, const CzEvaluation *evaluation) {
+void cz_page_write_not_covered(CzMarkup *markup, const CzEvaluation *evaluation) {
     for (int i = 0; i < evaluation->n_not_judged; i++)
         cz_markup_write(markup, "<p>Not judged: %s, %s.</p>\n", evaluation->not_judged[i].train,
                         evaluation->not_judged[i].why);
@@ -35,14 +34,14 @@ void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
         before = NULL;
     if (evaluation->n_check == 0) {
         cz_markup_write(markup, "<p>No check was made.</p>");
-        write_not_covered(markup, evaluation);
+        cz_page_write_not_covered(markup, evaluation);
         return;
     }
     int n_more = 0;
     for (int i = 0; i < evaluation->n_check; i++)
         n_more += !cz_checks_is_shown(evaluation, i);
     cz_checks_write_rows(markup, evaluation, before, false);
-    write_not_covered(markup, evaluation);
+    cz_page_write_not_covered(markup, evaluation);
     if (n_more == 0)
         return;
     cz_markup_write(

@@ -1,6 +1,6 @@
 /* The files of a result folder: summary and checks at the top, histories per scenario; of a sweep,
  * its points; of a sampling, its samples; of a front, its points and their designs; of a challenge,
- * its points and counter-examples. */
+ * its points and counter-examples; of a corridor, its edges. */
 #include "crushzone/report.h"
 
 #include "base/error.h"
@@ -14,6 +14,7 @@
 #include "report/overlay.h"
 #include "report/page.h"
 #include "report/page_challenge.h"
+#include "report/page_corridor.h"
 #include "report/page_sample.h"
 #include "report/page_pareto.h"
 #include "report/page_sweep.h"
@@ -58,6 +59,10 @@ typedef enum Content {
     SAMPLES,
     SAMPLE_REPORT,
     REPLAY,
+    CORRIDOR,
+    CORRIDOR_POINTS,
+    CORRIDOR_REPORT,
+    CORRIDOR_FIGURE,
     PARETO,
     PARETO_POINTS,
     PARETO_REPORT,
@@ -168,6 +173,7 @@ static CzStatus write_content(const Results *results, Content content, FILE *str
     case OUTCOME:
     case SWEEP:
     case SAMPLE:
+    case CORRIDOR:
     case PARETO:
     case CHALLENGE:
         return cz_report_write_json(report, stream, error);
@@ -198,6 +204,13 @@ static CzStatus write_content(const Results *results, Content content, FILE *str
         break;
     case SAMPLES:
         cz_csv_write_samples(report, stream);
+        break;
+    case CORRIDOR_REPORT:
+        return cz_page_write_corridor(report, stream, error);
+    case CORRIDOR_FIGURE:
+        return cz_report_write_corridor(report->corridor, stream, error);
+    case CORRIDOR_POINTS:
+        cz_csv_write_corridor(report, stream);
         break;
     case PARETO_REPORT:
         return cz_page_write_pareto(report->pareto, cz_problem_title(report->problem), stream,
@@ -369,10 +382,16 @@ static CzStatus write_all(CzFolder *folder, Results *results, CzError *error) {
                                  {"history.csv", HISTORY}};
     static const File of_sweep[] = {
         {"sweep.json", SWEEP}, {"sweep.csv", SWEEP_POINTS}, {"report.html", SWEEP_REPORT}};
+    static const File of_corridor[] = {{"corridor.json", CORRIDOR},
+                                       {"corridor.csv", CORRIDOR_POINTS},
+                                       {"report.html", CORRIDOR_REPORT},
+                                       {"corridor.svg", CORRIDOR_FIGURE}};
     if (results->report->kind == CZ_REPORT_SWEEP)
         return write_files(folder, 3, of_sweep, results, error);
     if (results->report->kind == CZ_REPORT_SAMPLE)
         return write_sampling(folder, results, error);
+    if (results->report->kind == CZ_REPORT_CORRIDOR)
+        return write_files(folder, 4, of_corridor, results, error);
     if (results->report->kind == CZ_REPORT_PARETO)
         return write_front(folder, results, error);
     if (results->report->kind == CZ_REPORT_CHALLENGE)

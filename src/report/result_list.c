@@ -199,6 +199,12 @@ static const CzSample *nth_failed(const CzSampling *sampling, int n) {
     return sample;
 }
 
+/* ---- corridors ---- */
+
+static const char *curve_words(CzResultContext *context, const CzTriedCurve *curve) {
+    return cz_curve_words(curve, context->words);
+}
+
 /* Summary of the compared scenario of a run; NULL when none was kept. */
 static const CzRunSummary *summary_of(const CzResultContext *context, const CzReportRun *run) {
     return cz_compared_run(context->report, (int)(run - context->report->compared));

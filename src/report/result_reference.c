@@ -7,18 +7,14 @@
 #include <string.h>
 
 /* Names of the documents: the word after "crushzone." in their format. */
-static const char *const documents[CZ_N_REPORT] = {[CZ_REPORT_RUN] = "summary",
-                                                   [CZ_REPORT_SEARCH] = "outcome",
-                                                   [CZ_REPORT_SWEEP] = "sweep",
-                                                   [CZ_REPORT_SAMPLE] = "sample",
-                                                   [CZ_REPORT_PARETO] = "pareto",
-                                                   [CZ_REPORT_CHALLENGE] = "challenge",
-                                                   [CZ_REPORT_VERIFICATION] = "verification",
-                                                   [CZ_REPORT_BENCHMARK] = "benchmark",
-                                                   [CZ_REPORT_EXPLANATION] = "explanation",
-                                                   [CZ_REPORT_COMPARISON] = "comparison",
-                                                   [CZ_REPORT_FIT] = "fit",
-                                                   [CZ_REPORT_MISTAKES] = "mistakes"};
+static const char *const documents[CZ_N_REPORT] = {
+    [CZ_REPORT_RUN] = "summary",           [CZ_REPORT_SEARCH] = "outcome",
+    [CZ_REPORT_SWEEP] = "sweep",           [CZ_REPORT_SAMPLE] = "sample",
+    [CZ_REPORT_PARETO] = "pareto",         [CZ_REPORT_CHALLENGE] = "challenge",
+    [CZ_REPORT_CORRIDOR] = "corridor",     [CZ_REPORT_VERIFICATION] = "verification",
+    [CZ_REPORT_BENCHMARK] = "benchmark",   [CZ_REPORT_EXPLANATION] = "explanation",
+    [CZ_REPORT_COMPARISON] = "comparison", [CZ_REPORT_FIT] = "fit",
+    [CZ_REPORT_MISTAKES] = "mistakes"};
 
 const char *cz_report_document_name(int index) {
     return index < CZ_N_REPORT ? documents[index] : NULL;

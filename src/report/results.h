@@ -44,7 +44,7 @@ typedef struct CzResultContext {
     int index;               /* of the item of a list that is being written */
     CzRunInfo info;          /* filled for each request, as are the others */
     CzError warning;
-    char format[32], text[64];
+    char format[32], text[64], words[CZ_CURVE_WORDS];
 } CzResultContext;
 
 /* Form of a result, or of each item of a list. */

@@ -9,6 +9,8 @@ set(CZ_SOURCES_report
     charts.c
     checks_table.c
     compare.c
+    corridor_figure.c
+    corridor_table.c
     csv.c
     documents.c
     drawn.c
@@ -30,6 +32,7 @@ set(CZ_SOURCES_report
     page_checks.c
     page_collect.c
     page_compare.c
+    page_corridor.c
     page_data.c
     page_designs.c
     page_figures.c

@@ -9,6 +9,7 @@ CzStatus cz_report_write_table(const CzReport *report, bool colour, FILE *stream
         [CZ_REPORT_SEARCH] = cz_outcome_write_table,
         [CZ_REPORT_SWEEP] = cz_sweep_write_table,
         [CZ_REPORT_SAMPLE] = cz_sample_write_table,
+        [CZ_REPORT_CORRIDOR] = cz_corridor_write_table,
         [CZ_REPORT_PARETO] = cz_pareto_write_table,
         [CZ_REPORT_CHALLENGE] = cz_challenge_write_table,
         [CZ_REPORT_VERIFICATION] = cz_verification_write_table,

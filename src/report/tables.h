@@ -10,6 +10,7 @@ void cz_outcome_write_table(const CzReport *report, CzTerminal *terminal);
 void cz_challenge_write_table(const CzReport *report, CzTerminal *terminal);
 void cz_sample_write_table(const CzReport *report, CzTerminal *terminal);
 void cz_sweep_write_table(const CzReport *report, CzTerminal *terminal);
+void cz_corridor_write_table(const CzReport *report, CzTerminal *terminal);
 void cz_pareto_write_table(const CzReport *report, CzTerminal *terminal);
 void cz_verification_write_table(const CzReport *report, CzTerminal *terminal);
 void cz_benchmark_write_table(const CzReport *report, CzTerminal *terminal);

@@ -28,6 +28,8 @@ sweep() { "$C" sweep "$cars" $short --vary trains.A.speed_km_h=10:50:2 --json >s
 check "the document of sweep follows its schema" sweep
 sample() { printf "uncertainty: {parameters: [{path: trains.A.speed_km_h, tolerance_percent: 5}]}\n" | sed "1i extends: $cars" >sample.yaml; "$C" sample sample.yaml -n 3 --json >sample.json 2>/dev/null; follows sample sample.json; }
 check "the document of sample follows its schema" sample
+corridor() { "$C" new two-trains -q && "$C" corridor two-trains.yaml --part cab-end.anti_climber -n 1 --json >corridor.json 2>/dev/null; follows corridor corridor.json; }
+check "the document of corridor follows its schema" corridor
 pareto() { "$C" pareto "$SOURCE/problems/length-or-force.yaml" --evaluations 20 -n 3 -q --minimise margin --minimise design.installed_length_mm -o front --json >pareto.json 2>/dev/null; follows pareto pareto.json front/pareto.json; }
 check "the document of pareto follows its schema" pareto
 challenge() { "$C" challenge sample.yaml --runs 4 --json >challenge.json 2>/dev/null; follows challenge challenge.json; }

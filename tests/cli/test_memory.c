@@ -254,6 +254,12 @@ static void sample_reports_every_lack_of_memory(void **state) {
     fail_every_request("sample SAMPLED -q -j 1 -n 3 --json", 31);
 }
 
+static void corridor_reports_every_lack_of_memory(void **state) {
+    (void)state;
+    fail_every_request("corridor SAMPLED -q -j 1 -n 1 --part end.coupler.tube -o out", 23);
+    fail_every_request("corridor PROBLEM -q -j 1 -n 1 --part end --json", 31);
+}
+
 static void challenge_reports_every_lack_of_memory(void **state) {
     (void)state;
     fail_every_request("challenge SAMPLED -q -j 1 --runs 6 -o out", 71);
@@ -342,6 +348,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(report_reports_every_lack_of_memory),
         cmocka_unit_test(sweep_reports_every_lack_of_memory),
         cmocka_unit_test(sample_reports_every_lack_of_memory),
+        cmocka_unit_test(corridor_reports_every_lack_of_memory),
         cmocka_unit_test(challenge_reports_every_lack_of_memory),
         cmocka_unit_test(optimise_reports_every_lack_of_memory),
         cmocka_unit_test(a_lasting_lack_of_memory_is_reported_too),

@@ -3,6 +3,7 @@
 #include "report/page.h"
 #include "report/page_challenge.h"
 #include "report/page_pareto.h"
+#include "report/page_corridor.h"
 #include "report/page_sample.h"
 #include "report/page_sweep.h"
 
@@ -58,4 +59,18 @@ CzStatus cz_evaluator_read_design(const CzEvaluator *evaluator, const double *x,
     (void)error;
     *problem = NULL;
     return CZ_STATUS_INPUT;
+}
+
+CzStatus cz_page_write_corridor(const CzReport *report, FILE *stream, CzError *error) {
+    (void)report;
+    (void)stream;
+    (void)error;
+    return CZ_OK;
+}
+
+CzStatus cz_report_write_corridor(const CzCorridor *corridor, FILE *stream, CzError *error) {
+    (void)corridor;
+    (void)stream;
+    (void)error;
+    return CZ_OK;
 }

@@ -211,7 +211,13 @@ typedef struct Adversary {
     int first, n;      /* its points, and their limit */
     int n_run;         /* of these that were run */
     double first_step; /* share of the range; 0: chosen by the algorithm */
+    double *scaled;    /* scratch (n_draw) */
 } Adversary;
+
+/* A scaled value on a fine grid, so that an algorithm that comes back meets the same point. */
+static double on_grid(double u) {
+    return round(u * 0x1p20) * 0x1p-20;
+}
 
 /* Evaluates points of an adversary; those that are known are not run again. */
 static CzStatus evaluate(void *data, int n_point, const double *u, double *objective,
@@ -222,8 +228,10 @@ static CzStatus evaluate(void *data, int n_point, const double *u, double *objec
     (void)constraint;
     (void)detail;
     for (int k = 0; k < n_point; k++) {
-        const double *at = u + (size_t)k * n_draw;
         const int next = own->first + own->n_run;
+        double *at = own->scaled;
+        for (size_t d = 0; d < n_draw; d++)
+            at[d] = on_grid(u[(size_t)k * n_draw + d]);
         int point = find_point(challenge, 0, challenge->n_point, at);
         if (point < 0)
             point = find_point(challenge, own->first, next, at);
@@ -247,6 +255,7 @@ static CzStatus run_adversary(int index, void *data, CzError *error) {
     const int n = challenge->n_draw;
     CzArena arena = {0};
     double *zero = cz_arena_numbers(&arena, (size_t)n), *one = cz_arena_numbers(&arena, (size_t)n);
+    own->scaled = cz_arena_numbers(&arena, (size_t)n);
     if (arena.out_of_memory)
         return cz_no_memory(error, "the search of a challenge");
     for (int d = 0; d < n; d++)

@@ -167,14 +167,16 @@ static const char *keep(CzChallenge *challenge, const char *text) {
     return text == NULL ? NULL : cz_arena_copy_text(&challenge->parts->arena, text, strlen(text));
 }
 
-/* The check for which a full run is listed: that of its pair where it fails, else the worst. */
+/* The check for which a full run is listed: that of its pair where it fails, else the worst; of a
+ * run that failed none that passes. */
 static int check_of(const FullRun *run) {
-    const int own = run->pair.check;
+    const int own = run->pair.check, worst = run->judged.check;
     if (run->result == NULL)
         return -1;
-    const bool is_own = run->judged.verdict != CZ_VERDICT_FAIL ||
-                        (own >= 0 && run->result[own].verdict == CZ_VERDICT_FAIL);
-    return is_own ? own : run->judged.check;
+    if (own >= 0 &&
+        (run->judged.verdict != CZ_VERDICT_FAIL || run->result[own].verdict == CZ_VERDICT_FAIL))
+        return own;
+    return worst >= 0 && run->result[worst].verdict == CZ_VERDICT_FAIL ? worst : -1;
 }
 
 static CzStatus add_weak(CzChallenge *challenge, FullRun *run, CzError *error) {

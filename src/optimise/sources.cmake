@@ -1,7 +1,6 @@
 # Sources of src/optimise, one per line.
 set(CZ_SOURCES_optimise
     alternatives.c
-    gauss_newton.c
     challenge.c
     challenge_points.c
     challenge_search.c

@@ -15,6 +15,7 @@ typedef struct CzChallengeParts {
     CzCases cases;
     CzCaseChecks checks;      /* the checks of the challenge */
     double *u;                /* points scaled to 0..1 (room x n_draw) */
+    int n_spread;             /* points of the even sequence that were used */
     atomic_int n_done;        /* points that were run, for the progress */
     atomic_flag is_reporting; /* a thread is in the progress function */
 } CzChallengeParts;

@@ -76,20 +76,22 @@ static CzStatus run_new(CzChallenge *challenge, int n, const char *phase, CzErro
     return status;
 }
 
-/* The first point is the middle of all ranges. */
+/* The next points of the sequence; the first one of all is the middle of all ranges. */
 static CzStatus spread(CzChallenge *challenge, int n, CzError *error) {
-    double *u = malloc((size_t)n * sizeof *u);
+    const int before = challenge->parts->n_spread, all = before + n;
+    double *u = malloc((size_t)all * sizeof *u);
     if (u == NULL)
         return cz_no_memory(error, "the points of a challenge");
     for (int d = 0; d < challenge->n_draw; d++) {
         if (challenge->n_draw <= CZ_SOBOL_MOST_DRAWS)
-            cz_sobol_draw((uint64_t)challenge->seed, d, n, u);
+            cz_sobol_draw((uint64_t)challenge->seed, d, all, u);
         else
-            cz_latin_draw((uint64_t)challenge->seed, d, n, u);
+            cz_latin_draw((uint64_t)challenge->seed + (uint64_t)before, d, all, u);
         for (int k = 0; k < n; k++)
-            u_at(challenge, challenge->n_point + k)[d] = k == 0 ? 0.5 : u[k];
+            u_at(challenge, challenge->n_point + k)[d] = before + k == 0 ? 0.5 : u[before + k];
     }
     free(u);
+    challenge->parts->n_spread = all;
     return run_new(challenge, n, "spread", error);
 }
 
@@ -383,25 +385,27 @@ static CzStatus search_global(CzChallenge *challenge, CzError *error) {
     return run_round(challenge, n_adversary, adversary, error);
 }
 
-/* COBYLA from the best point of some checks, as many as the points allow. */
-static CzStatus search_local(CzChallenge *challenge, CzError *error) {
+/* COBYLA from the best points of some checks, as many as the points allow; later rounds take the
+ * next checks in turn, and other first steps. */
+static CzStatus search_local(CzChallenge *challenge, int round, CzError *error) {
+    static const double first_steps[] = {0.2, 0.05, 0.4};
     int check[MOST_ADVERSARIES];
     Adversary adversary[MOST_ADVERSARIES];
     const int budget = (left_of(challenge) + 1) / 2;
-    const int most = budget / (RUNS_PER_DRAW * (challenge->n_draw + 1));
-    int n;
-    CZ_TRY(choose_checks(challenge,
-                         most < 1                  ? 1
-                         : most > MOST_ADVERSARIES ? MOST_ADVERSARIES
-                                                   : most,
-                         &n, check, error));
-    for (int a = 0; a < n; a++)
-        adversary[a] = (Adversary){.check = check[a],
+    const int affords = budget / (RUNS_PER_DRAW * (challenge->n_draw + 1));
+    const int most = affords < 1 ? 1 : affords > MOST_ADVERSARIES ? MOST_ADVERSARIES : affords;
+    int n_ranked;
+    CZ_TRY(choose_checks(challenge, MOST_ADVERSARIES, &n_ranked, check, error));
+    const int n = most < n_ranked ? most : n_ranked;
+    for (int a = 0; a < n; a++) {
+        const int own = check[(round * n + a) % n_ranked];
+        adversary[a] = (Adversary){.check = own,
                                    .algorithm = "LN_COBYLA",
                                    .phase = "local",
-                                   .start = best_point(challenge, check[a]),
+                                   .start = best_point(challenge, own),
                                    .n = budget / n,
-                                   .first_step = 0.2};
+                                   .first_step = first_steps[round % 3]};
+    }
     return n > 0 ? run_round(challenge, n, adversary, error) : CZ_OK;
 }
 
@@ -417,9 +421,10 @@ CzStatus cz_challenge_search(CzChallenge *challenge, CzError *error) {
     }
     if (left_of(challenge) > 0)
         CZ_TRY(search_global(challenge, error));
-    for (int before = -1; left_of(challenge) > 0 && challenge->n_point > before;) {
-        before = challenge->n_point;
-        CZ_TRY(search_local(challenge, error));
+    for (int round = 0; left_of(challenge) > 0; round++) {
+        CZ_TRY(search_local(challenge, round, error));
+        if (round > 0 && left_of(challenge) > 0) /* elsewhere, where the best points are known */
+            CZ_TRY(spread(challenge, (left_of(challenge) + 3) / 4, error));
     }
     return CZ_OK;
 }

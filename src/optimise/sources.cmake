@@ -1,6 +1,7 @@
 # Sources of src/optimise, one per line.
 set(CZ_SOURCES_optimise
     alternatives.c
+    gauss_newton.c
     challenge.c
     challenge_points.c
     challenge_search.c

@@ -85,6 +85,25 @@ typedef struct CzTrial {
     const char *phase;
 } CzTrial;
 
+/* A limit, or a bound of a variable, that keeps the objective from a better value: a multiplier of
+ * the condition of an optimum, positive. */
+typedef struct CzMultiplier {
+    int constraint; /* -1 for a bound */
+    int variable;   /* -1 for a limit */
+    double worth;   /* improvement of the objective, in its unit, by a margin that is larger by 0.01
+                       or a bound that is further away by 1 unit of the variable */
+} CzMultiplier;
+
+/* The smallest relaxation of one limit with which a design passes. */
+typedef struct CzRelaxation {
+    int constraint;
+    double violation;  /* of the present limit by that design, as a margin */
+    double limit;      /* with which it passes, in the unit of the constraint */
+    double *x;         /* the design, in the variables' units; NULL when none is known
+                          (n_variable) */
+    long n_evaluation; /* designs that were evaluated for it after the search */
+} CzRelaxation;
+
 /* Open result, owns its memory. The start and best evaluations were made from scratch after the
  * search. */
 typedef struct CzOutcome {
@@ -107,6 +126,13 @@ typedef struct CzOutcome {
                                       an interruption (n_variable) */
     double *objective_change;      /* of the objective by each; NaN when not known (n_variable) */
     double *constraint_change;     /* likewise of each constraint (n_variable x n_constraint) */
+    double stationarity; /* the part of the objective's slope that no active limit or bound
+                            explains, 0 at an optimum, at most 1; of the largest violation when the
+                            best design violates a constraint */
+    int n_multiplier;
+    CzMultiplier *multiplier; /* limits before bounds, largest first; NULL when the condition is not
+                                 known (n_multiplier) */
+    CzRelaxation relaxation;  /* when no design passes */
     long n_trial;
     CzTrial *trial;  /* history in order (n_trial) */
     double *trial_x; /* its designs, in the variables' units (n_trial x n_variable) */

@@ -4,7 +4,21 @@
 #include "evaluate/evaluator.h"
 #include "optimise/strategy.h"
 
+#include <math.h>
 #include <string.h>
+
+/* The record with the smallest largest violation, on the increments where `on_grid` is set: what a
+ * search minimises that maximises the smallest margin, while it ranks designs by the sum. */
+static long least_violated(const CzSearch *search, bool on_grid) {
+    long least = -1;
+    for (long i = 0; i < search->n_record; i++) {
+        const CzRecord *record = &search->record[i];
+        if (!isnan(record->objective) && !record->is_barred && (record->on_grid || !on_grid) &&
+            (least < 0 || record->violation < search->record[least].violation))
+            least = i;
+    }
+    return least;
+}
 
 /* The best on the catalogue increments when there are any. Otherwise the best of all: when the
  * search ended before it reached the increments, or when designs that pass, or that are valid in a
@@ -20,7 +34,9 @@ static long best_record(const CzSearch *search) {
 }
 
 long cz_combinations_record(const CzSearch *search) {
-    const long record = best_record(search);
+    long record = best_record(search);
+    if (record >= 0 && search->function->is_minimax && search->record[record].violation > 0)
+        record = least_violated(search, record == search->best_on_grid);
     return record >= 0 && search->record[record].is_barred ? -1 : record;
 }
 

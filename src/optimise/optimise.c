@@ -246,7 +246,9 @@ static CzStatus fill_outcome(CzEvaluator *evaluator, const CzCombinations *combi
             cz_alternatives_find(chosen, cz_combinations_record(&chosen->search), outcome, error));
     conclude(combinations, options->evaluations, outcome);
     CZ_TRY(cz_outcome_verify(evaluator, options, outcome, error));
-    return cz_sensitivity_take(evaluator, options->stop, outcome, error);
+    CZ_TRY(cz_relaxation_find(evaluator, options->stop, outcome, error));
+    CZ_TRY(cz_sensitivity_take(evaluator, options->stop, outcome, error));
+    return cz_stationarity_find(evaluator, outcome, error);
 }
 
 /* ---- the search ------------------------------------------------------------------------------ */

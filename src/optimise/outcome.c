@@ -16,6 +16,10 @@ double *cz_outcome_numbers(CzOutcome *outcome, size_t n) {
     return cz_arena_numbers(&((Owned *)outcome)->arena, n);
 }
 
+CzMultiplier *cz_outcome_multipliers(CzOutcome *outcome, size_t n) {
+    return cz_arena_allocate(&((Owned *)outcome)->arena, n + 1, sizeof(CzMultiplier));
+}
+
 CzStatus cz_outcome_create(const CzEvaluator *evaluator, long n_trial, CzOutcome **outcome,
                            CzError *error) {
     Owned *made = calloc(1, sizeof *made);
@@ -103,9 +107,11 @@ static CzStatus fill(CzEvaluator *evaluator, const CzRecall *recall, CzOutcome *
     CZ_TRY(cz_evaluate(evaluator, 1, outcome->start, true, &outcome->start_evaluation, error));
     CZ_TRY(cz_evaluate(evaluator, 1, outcome->best, true, &outcome->best_evaluation, error));
     CZ_TRY(cz_outcome_verify(evaluator, &options, outcome, error));
-    return outcome->status == CZ_OUTCOME_INTERRUPTED
-               ? CZ_OK
-               : cz_sensitivity_take(evaluator, NULL, outcome, error);
+    CZ_TRY(cz_relaxation_find(evaluator, NULL, outcome, error));
+    if (outcome->status == CZ_OUTCOME_INTERRUPTED)
+        return CZ_OK;
+    CZ_TRY(cz_sensitivity_take(evaluator, NULL, outcome, error));
+    return cz_stationarity_find(evaluator, outcome, error);
 }
 
 CzStatus cz_outcome_recall(CzEvaluator *evaluator, const CzRecall *recall, CzOutcome **outcome,

@@ -407,7 +407,8 @@ static CzStatus fill_outcome(Robust *robust, CzError *error) {
         cz_evaluate(result->evaluator, 1, outcome->best, true, &outcome->best_evaluation, error));
     conclude(robust, outcome);
     CZ_TRY(cz_outcome_verify(result->evaluator, &robust->options, outcome, error));
-    return cz_sensitivity_take(result->evaluator, robust->options.stop, outcome, error);
+    CZ_TRY(cz_sensitivity_take(result->evaluator, robust->options.stop, outcome, error));
+    return cz_stationarity_find(result->evaluator, outcome, error);
 }
 
 static CzStatus run(Robust *robust, CzError *error) {

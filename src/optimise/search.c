@@ -287,7 +287,13 @@ CzRecord cz_search_judge(const CzFunction *function, const char *phase, double o
     }
     if (function->is_fit)
         record.penalty += objective;
-    return failed ? (CzRecord){NAN, INFINITY, INFINITY, phase, false, true, INFINITY} : record;
+    return failed ? (CzRecord){.objective = NAN,
+                               .violation = INFINITY,
+                               .penalty = INFINITY,
+                               .phase = phase,
+                               .is_barred = true,
+                               .missed = INFINITY}
+                  : record;
 }
 
 /* Records the values of one design and makes them finite and smooth for an algorithm. */

@@ -20,12 +20,14 @@ set(CZ_SOURCES_optimise
     outcome.c
     pareto.c
     replay.c
+    relaxation.c
     robust.c
     robust_cases.c
     sample.c
     search.c
     sensitivity.c
     snap.c
+    stationarity.c
     strategy.c
     subspace.c
     surface.c

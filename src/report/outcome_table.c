@@ -9,6 +9,7 @@
 #include "report/overlay.h"
 #include "report/robust_table.h"
 #include "report/tables.h"
+#include "report/worth_table.h"
 
 #include <math.h>
 
@@ -212,6 +213,23 @@ static void write_violations(const CzEvaluator *evaluator, const CzOutcome *outc
     cz_table_write_text(&table, terminal);
 }
 
+/* The worth of limits, or those that conflict, and the smallest relaxation of one. */
+static void write_worth(const CzReport *report, CzTerminal *terminal) {
+    char text[CZ_SENTENCE_ROOM];
+    CzReportTable table;
+    if (cz_worth_is_known(report->outcome)) {
+        cz_worth_sentence(report, sizeof text, text);
+        fprintf(terminal->stream, "\n%s\n", text);
+        if (report->outcome->n_multiplier > 0) {
+            cz_worth_begin_table(&table, report);
+            cz_table_write_text(&table, terminal);
+        }
+    }
+    cz_relaxation_sentence(report, sizeof text, text);
+    if (text[0] != '\0')
+        fprintf(terminal->stream, "\n%s\n", text);
+}
+
 /* A change in percent, rounded up to one decimal. */
 static double tenths_above(double change) {
     return 0.1 * ceil(1e3 * change);
@@ -262,6 +280,7 @@ void cz_outcome_write_table(const CzReport *report, CzTerminal *terminal) {
     }
     cz_checks_write_table(&outcome->best_evaluation, &outcome->start_evaluation, terminal);
     write_violations(evaluator, outcome, terminal);
+    write_worth(report, terminal);
     write_verification(outcome->verification, terminal);
     if (report->robust != NULL)
         cz_robust_write_table(report->robust, terminal);

@@ -12,6 +12,7 @@
 #include "report/plot.h"
 #include "report/robust_table.h"
 #include "report/runs.h"
+#include "report/worth_table.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -136,6 +137,23 @@ static CzStatus write_search(CzMarkup *markup, const CzReport *report, CzError *
 
 /* ---- active constraints ---- */
 
+/* The worth of limits, or those that conflict, and the smallest relaxation of one. */
+static void write_worth(CzMarkup *markup, const CzReport *report) {
+    char text[CZ_SENTENCE_ROOM];
+    CzReportTable table;
+    if (cz_worth_is_known(report->outcome)) {
+        cz_worth_sentence(report, sizeof text, text);
+        cz_markup_write(markup, "<p>%s</p>\n", text);
+        if (report->outcome->n_multiplier > 0) {
+            cz_worth_begin_table(&table, report);
+            cz_table_write_page(&table, markup);
+        }
+    }
+    cz_relaxation_sentence(report, sizeof text, text);
+    if (text[0] != '\0')
+        cz_markup_write(markup, "<p>%s</p>\n", text);
+}
+
 static void write_active(CzMarkup *markup, const CzReport *report) {
     const CzEvaluation *best = &report->outcome->best_evaluation;
     CzReportTable table;
@@ -154,6 +172,7 @@ static void write_active(CzMarkup *markup, const CzReport *report) {
                                   is_flag ? NAN : -best->constraint[listed[n]]);
     }
     cz_table_write_page(&table, markup);
+    write_worth(markup, report);
     cz_markup_write(markup, "</section>\n");
 }
 

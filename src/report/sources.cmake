@@ -66,4 +66,5 @@ set(CZ_SOURCES_report
     temporary.c
     decimation.c
     verification.c
+    worth_table.c
 )

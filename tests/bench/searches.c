@@ -1,11 +1,14 @@
 /* Compares the usual search with single algorithms of NLopt on the problems of
  * problems/bench-designs.
  *
- *   bench_searches FILE...              one line of CSV for each problem, method and seed: distance
- *                                       of the best design from the best known one after 50, 100,
- *                                       200 and 400 evaluations, empty while no design passes, and
- *                                       the evaluations until it is within 1 %
- *   bench_searches --only METHOD N FILE...  of one method with N seeds
+ *   bench_searches METHOD FILE...       one line for each problem and seed: problem, method, seed,
+ *                                       and each improvement of the best design so far as
+ *                                       evaluations:objective
+ *   bench_searches --table FILE <LINES  a line of CSV for each problem and method, from such lines
+ *                                       and the best known objectives of FILE: share of seeds with
+ *                                       a design that passes and median distance from the best
+ *                                       known after 50, 100, 200 and 400 evaluations, and median
+ *                                       evaluations to within 1 %
  *   bench_searches --long N FILE...     the best design of all methods and three seeds with N
  *                                       evaluations each, as a line of best-known.csv
  *
@@ -28,6 +31,7 @@ enum {
     N_COUNT = sizeof counts / sizeof *counts,
     MOST_COUNT = 400,
     N_SEED = 10,
+    MOST_SEED = 20,
     N_LONG_SEED = 3
 };
 
@@ -62,33 +66,108 @@ static CzOutcome *search(CzEvaluator *evaluator, const char *method, long seed, 
 /* Prints the line of one search. */
 static void compare(CzEvaluator *evaluator, const BestKnown *best, const char *method, long seed) {
     CzOutcome *outcome = search(evaluator, method, seed, MOST_COUNT);
-    const double scale = cz_evaluator_maximises_margin(evaluator) ? 1.0 : fabs(best->objective);
     double least = INFINITY;
-    long reached = -1;
-    int next = 0;
-    printf("%s,%s,%ld", best->problem, method, seed);
-    for (long i = 0; i < MOST_COUNT; i++) {
-        const CzTrial *trial = i < outcome->n_trial ? &outcome->trial[i] : NULL;
-        if (trial != NULL && (trial->feasible || !best->is_feasible) && trial->objective < least &&
-            is_on_increments(evaluator, outcome->trial_x + i * outcome->n_variable))
+    printf("%s %s %ld", best->problem, method, seed);
+    for (long i = 0; i < outcome->n_trial; i++) {
+        const CzTrial *trial = &outcome->trial[i];
+        if ((trial->feasible || !best->is_feasible) && trial->objective < least &&
+            is_on_increments(evaluator, outcome->trial_x + i * outcome->n_variable)) {
             least = trial->objective;
-        const double distance = (least - best->objective) / scale;
-        if (reached < 0 && distance <= 0.01)
-            reached = i + 1;
-        if (i + 1 != counts[next])
-            continue;
-        next++;
-        if (isfinite(distance))
-            printf(",%.5f", distance);
-        else
-            printf(",");
+            printf(" %ld:%.9g", i + 1, least);
+        }
     }
-    if (reached > 0)
-        printf(",%ld\n", reached);
-    else
-        printf(",\n");
+    putchar('\n');
     cz_outcome_free(outcome);
 }
+
+/* ---- the table ---- */
+
+/* All seeds of one problem and method. */
+typedef struct Group {
+    char problem[64], method[32];
+    int n;
+    double least[N_COUNT][MOST_SEED]; /* distances, infinite while no design passes */
+    double reached[MOST_SEED];        /* evaluations to within 1 %, infinite when never */
+} Group;
+
+static int compare_numbers(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median(double *number, int n) {
+    qsort(number, (size_t)n, sizeof *number, compare_numbers);
+    return n % 2 == 1 ? number[n / 2] : (number[n / 2 - 1] + number[n / 2]) / 2;
+}
+
+static void put_number(double number, int digits) {
+    if (isfinite(number))
+        printf(",%.*f", digits, number);
+    else
+        printf(",");
+}
+
+static void put_group(Group *group) {
+    if (group->n == 0)
+        return;
+    printf("%s,%s,%d", group->problem, group->method, group->n);
+    for (int k = 0; k < N_COUNT; k++) {
+        int n_passed = 0;
+        for (int i = 0; i < group->n; i++)
+            n_passed += isfinite(group->least[k][i]);
+        printf(",%.2f", (double)n_passed / group->n);
+    }
+    for (int k = 0; k < N_COUNT; k++)
+        put_number(median(group->least[k], group->n), 5);
+    put_number(median(group->reached, group->n), 0);
+    put_number(group->reached[group->n - 1], 0); /* they are sorted now */
+    putchar('\n');
+    group->n = 0;
+}
+
+/* Adds the improvements of one line to a group. */
+static void add_line(Group *group, char *improvements, const BestKnown *best) {
+    const int at = group->n++;
+    const bool is_margin = best->objective < 0 || !best->is_feasible;
+    const double scale = is_margin ? 1.0 : best->objective;
+    group->reached[at] = INFINITY;
+    for (int k = 0; k < N_COUNT; k++)
+        group->least[k][at] = INFINITY;
+    for (char *word = strtok(improvements, " \n"); word != NULL; word = strtok(NULL, " \n")) {
+        const long evaluations = atol(word);
+        const double distance = (atof(strchr(word, ':') + 1) - best->objective) / scale;
+        for (int k = 0; k < N_COUNT; k++)
+            if (evaluations <= counts[k])
+                group->least[k][at] = distance;
+        if (distance <= 0.01 && !isfinite(group->reached[at]))
+            group->reached[at] = (double)evaluations;
+    }
+}
+
+static void make_table(const char *best_known) {
+    static char line[1 << 16];
+    Group group = {.n = 0};
+    puts("problem,method,seeds,passed_50,passed_100,passed_200,passed_400,distance_50,distance_100,"
+         "distance_200,distance_400,within_1_percent,slowest");
+    while (fgets(line, sizeof line, stdin) != NULL) {
+        char problem[64], method[32], file[512];
+        int at = 0;
+        if (sscanf(line, "%63s %31s %*d%n", problem, method, &at) != 2)
+            continue;
+        if (strcmp(problem, group.problem) != 0 || strcmp(method, group.method) != 0)
+            put_group(&group);
+        memcpy(group.problem, problem, sizeof problem);
+        memcpy(group.method, method, sizeof method);
+        snprintf(file, sizeof file, "%.*s%s.yaml", (int)(strrchr(best_known, '/') + 1 - best_known),
+                 best_known, problem);
+        const BestKnown best = best_known_of(file);
+        if (group.n < MOST_SEED)
+            add_line(&group, line + at, &best);
+    }
+    put_group(&group);
+}
+
+/* ---- the best known designs ---- */
 
 /* Prints the best design of long searches by all methods. */
 static void find_best(CzEvaluator *evaluator, const char *problem, long evaluations) {
@@ -120,15 +199,22 @@ static void find_best(CzEvaluator *evaluator, const char *problem, long evaluati
     cz_outcome_free(best);
 }
 
+/* Whether an algorithm uses random numbers; the others are run once. */
+static bool is_random(const char *method) {
+    return strcmp(method, "auto") == 0 || strstr(method, "ISRES") != NULL ||
+           strstr(method, "CRS2") != NULL;
+}
+
 int main(int argc, char **argv) {
-    const bool is_long = argc > 2 && strcmp(argv[1], "--long") == 0;
-    const bool is_one = argc > 3 && strcmp(argv[1], "--only") == 0;
-    CzError error = {0};
-    if (!is_long)
-        puts("problem,method,seed,after_50,after_100,after_200,after_400,within_1_percent");
-    for (int i = is_long ? 3 : is_one ? 4 : 1; i < argc; i++) {
+    if (argc == 3 && strcmp(argv[1], "--table") == 0) {
+        make_table(argv[2]);
+        return 0;
+    }
+    const bool is_long = argc > 3 && strcmp(argv[1], "--long") == 0;
+    for (int i = is_long ? 3 : 2; i < argc; i++) {
         CzProblem *problem = NULL;
         CzEvaluator *evaluator = NULL;
+        CzError error = {0};
         CzEvaluatorOptions options = cz_evaluator_options_default();
         options.n_job = 1;
         char name[64];
@@ -140,11 +226,10 @@ int main(int argc, char **argv) {
             find_best(evaluator, name, atol(argv[2]));
         } else {
             const BestKnown best = best_known_of(argv[i]);
-            const int n_method = is_one ? 1 : N_METHOD;
-            const long n_seed = is_one ? atol(argv[3]) : N_SEED;
-            for (int method = 0; method < n_method; method++)
-                for (long seed = 1; seed <= n_seed; seed++)
-                    compare(evaluator, &best, is_one ? argv[2] : methods[method], seed);
+            for (long seed = 1; seed <= (is_random(argv[1]) ? N_SEED : 1); seed++) {
+                compare(evaluator, &best, argv[1], seed);
+                fflush(stdout);
+            }
         }
         fflush(stdout);
         cz_evaluator_free(evaluator);

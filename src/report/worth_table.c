@@ -1,0 +1,97 @@
+/* What limits and bounds are worth at the best design of a search, and which limits conflict. */
+#include "report/worth_table.h"
+
+#include "evaluate/evaluator.h"
+#include "report/figure.h"
+
+#include <stdio.h>
+#include <string.h>
+
+bool cz_worth_is_known(const CzOutcome *outcome) {
+    return outcome->multiplier != NULL;
+}
+
+/* Names of the limits that the best design violates: they cannot all be kept. */
+static void write_conflict(const CzReport *report, size_t room, char *text) {
+    const CzEvaluation *best = &report->outcome->best_evaluation;
+    size_t n = (size_t)snprintf(text, room, "These limits conflict: ");
+    const char *between = "";
+    for (int i = 0; i < best->n_constraint && n < room; i++)
+        if (best->constraint[i] > 0) {
+            n += (size_t)snprintf(text + n, room - n, "%s%s", between,
+                                  cz_evaluator_constraint_name(report->evaluator, i));
+            between = "; ";
+        }
+    if (n < room)
+        snprintf(text + n, room - n, ". The least violation that was found depends on:");
+}
+
+void cz_worth_sentence(const CzReport *report, size_t room, char *text) {
+    const CzOutcome *outcome = report->outcome;
+    char share[CZ_FIGURE_ROOM];
+    if (outcome->best_evaluation.violation > 0) {
+        write_conflict(report, room, text);
+        return;
+    }
+    snprintf(text, room,
+             "Condition of an optimum: active limits and bounds explain the slope of the objective "
+             "but for %s.",
+             cz_figure_percent(share, outcome->stationarity));
+}
+
+/* An improvement of the objective. */
+static void put_worth(CzReportTable *table, const CzReport *report, double worth) {
+    char number[CZ_FIGURE_ROOM], text[CZ_FIGURE_ROOM + 40];
+    const bool is_margin = cz_evaluator_maximises_margin(report->evaluator) ||
+                           report->outcome->best_evaluation.violation > 0;
+    if (is_margin)
+        snprintf(text, sizeof text, "%s %% of margin", cz_figure_digits(number, 2, 100 * worth));
+    else
+        snprintf(text, sizeof text, "%s %.30s", cz_figure_digits(number, 2, worth),
+                 cz_evaluator_objective_unit(report->evaluator));
+    cz_table_put(table, text);
+}
+
+void cz_worth_begin_table(CzReportTable *table, const CzReport *report) {
+    const CzOutcome *outcome = report->outcome;
+    cz_table_begin(table, "limit or bound;>relaxed by;>is worth");
+    for (int i = 0; i < outcome->n_multiplier; i++) {
+        const CzMultiplier *multiplier = &outcome->multiplier[i];
+        char text[CZ_FIGURE_ROOM];
+        if (multiplier->constraint >= 0) {
+            cz_table_put(table,
+                         cz_evaluator_constraint_name(report->evaluator, multiplier->constraint));
+            cz_table_put(table, "1 %");
+        } else {
+            const CzVariableInfo *info =
+                cz_evaluator_variable(report->evaluator, multiplier->variable);
+            cz_table_put(table, info->name);
+            snprintf(text, sizeof text, "1 %.20s", info->unit != NULL ? info->unit : "");
+            cz_table_put(table, text);
+        }
+        put_worth(table, report, multiplier->worth);
+    }
+}
+
+void cz_relaxation_sentence(const CzReport *report, size_t room, char *text) {
+    const CzOutcome *outcome = report->outcome;
+    const CzRelaxation *relaxation = &outcome->relaxation;
+    char limit[CZ_FIGURE_ROOM], now[CZ_FIGURE_ROOM], share[CZ_FIGURE_ROOM];
+    text[0] = '\0';
+    if (relaxation->x == NULL && relaxation->n_evaluation > 0)
+        snprintf(text, room,
+                 "No relaxation of one limit alone was found with which a design passes, by %ld "
+                 "further evaluations.",
+                 relaxation->n_evaluation);
+    if (relaxation->x == NULL)
+        return;
+    const CzCheckResult *check = &outcome->best_evaluation.constraint_check[relaxation->constraint];
+    snprintf(
+        text, room,
+        "Smallest relaxation of one limit: with %s at %s %s instead of %s (%s) a design passes, "
+        "found by %ld further evaluations.",
+        cz_evaluator_constraint_name(report->evaluator, relaxation->constraint),
+        cz_figure_digits(limit, 5, relaxation->limit), check->unit != NULL ? check->unit : "",
+        cz_figure_digits(now, 5, check->limit), cz_figure_percent(share, relaxation->violation),
+        relaxation->n_evaluation);
+}

@@ -8,24 +8,21 @@
 #include <math.h>
 #include <string.h>
 
-/* Points of a curve as drawn, with the rise from zero force before them. */
-enum { MOST_POINTS = CZ_MOST_CURVE_POINTS + 1, MOST_FAILING = 2 };
+/* The force axis begins below the lowest curve, so that a narrow corridor can be seen. */
+enum { MOST_POINTS = CZ_MOST_CURVE_POINTS, MOST_FAILING = 2 };
 
+/* Points of a curve as drawn. */
 typedef struct Drawn {
     int n;
     double x[MOST_POINTS], y[MOST_POINTS]; /* [mm], [kN] */
 } Drawn;
 
-static void add_point(Drawn *drawn, double stroke, double force) {
-    drawn->x[drawn->n] = 1e3 * stroke;
-    drawn->y[drawn->n++] = 1e-3 * force;
-}
-
 static Drawn curve_of(int n, const double *stroke, const double *force) {
-    Drawn drawn = {.n = 0};
-    add_point(&drawn, 0, 0);
-    for (int i = 0; i < n; i++)
-        add_point(&drawn, stroke[i], force[i]);
+    Drawn drawn = {.n = n};
+    for (int i = 0; i < n; i++) {
+        drawn.x[i] = 1e3 * stroke[i];
+        drawn.y[i] = 1e-3 * force[i];
+    }
     return drawn;
 }
 
@@ -88,7 +85,6 @@ void cz_corridor_draw(const CzCorridor *corridor, bool is_figure, CzMarkup *mark
                          .y_label = "force [kN]",
                          .n_series = n,
                          .series = series,
-                         .from_zero = true,
                          .height = 280};
     if (is_figure)
         cz_plot_write_figure(&plot, markup);

@@ -35,12 +35,15 @@ static const char *edge_percent(const CzCorridor *corridor, int edge,
 void cz_corridor_say_result(const CzCorridor *corridor, char text[CZ_CORRIDOR_SENTENCE]) {
     const CzTriedCurve *failure = cz_corridor_failure(corridor);
     char low[CZ_FIGURE_ROOM + 1], high[CZ_FIGURE_ROOM + 1], words[CZ_CURVE_WORDS], reason[400];
+    const bool is_provisional =
+        corridor->exists && corridor->curve[0].verdict == CZ_VERDICT_PROVISIONAL;
+    const char *end = is_provisional ? ", PROVISIONAL: by limits that are not confirmed" : "";
     if (corridor->exists && corridor->edge[0].width + corridor->edge[1].width == 0) {
-        snprintf(text, CZ_CORRIDOR_SENTENCE, "Corridor narrower than %s %% of the nominal forces",
-                 cz_figure_digits(low, 3, 100 * corridor->resolution));
+        snprintf(text, CZ_CORRIDOR_SENTENCE, "Corridor narrower than %s %% of the nominal forces%s",
+                 cz_figure_digits(low, 3, 100 * corridor->resolution), end);
     } else if (corridor->exists) {
-        snprintf(text, CZ_CORRIDOR_SENTENCE, "Corridor %s to %s %% of the nominal forces",
-                 edge_percent(corridor, 0, low), edge_percent(corridor, 1, high));
+        snprintf(text, CZ_CORRIDOR_SENTENCE, "Corridor %s to %s %% of the nominal forces%s",
+                 edge_percent(corridor, 0, low), edge_percent(corridor, 1, high), end);
     } else if (failure == NULL) {
         snprintf(text, CZ_CORRIDOR_SENTENCE, "No corridor yet");
     } else {

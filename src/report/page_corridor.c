@@ -20,7 +20,10 @@ static void write_banner(CzMarkup *markup, const CzCorridor *corridor) {
     char text[CZ_CORRIDOR_SENTENCE];
     cz_corridor_say_result(corridor, text);
     cz_markup_write(markup, "<header><p class='banner %s'>%s</p></header>\n",
-                    corridor->exists ? "pass" : "fail", text);
+                    !corridor->exists                                      ? "fail"
+                    : corridor->curve[0].verdict == CZ_VERDICT_PROVISIONAL ? "careful"
+                                                                           : "pass",
+                    text);
     cz_corridor_say_device(corridor, text);
     cz_markup_write(markup, "<p><strong>Device: %s.</strong></p>\n", text);
     if (corridor->is_interrupted)

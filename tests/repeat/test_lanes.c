@@ -320,6 +320,48 @@ static void variants_side_by_side_are_what_they_are_alone(void **state) {
     check_mixed(variants, sizeof variants / sizeof variants[0], false);
 }
 
+/* A design without a valid model, and one whose numbers overflow because its ends are
+ * ten thousand times lighter, do not change their neighbours. */
+static void runs_that_fail_leave_their_neighbours_alone(void **state) {
+    (void)state;
+    enum { REFUSED = 1, UNSTABLE = 2, N = 5 };
+    Case opened = case_open(PAIR, ELASTIC);
+    CzSimulateOptions options = cz_simulate_options_default();
+    int n_vehicle = 0;
+    const CzVehicle *own = cz_problem_vehicles(opened.problem, &n_vehicle);
+    CzVehicle *changed = malloc(sizeof *changed * (size_t)(2 * n_vehicle));
+    assert_non_null(changed);
+    for (int k = 0; k < 2; k++)
+        memcpy(changed + k * n_vehicle, own, sizeof *own * (size_t)n_vehicle);
+    changed[0].front.anti_climber.stages[0].stroke = -1.0;
+    for (int i = 0; i < n_vehicle; i++)
+        changed[n_vehicle + i].front.mass *= 1e-4;
+    CzPlannedRun planned[N];
+    for (int i = 0; i < N; i++)
+        planned[i] = (CzPlannedRun){opened.model, NULL};
+    planned[REFUSED].vehicles = changed;
+    planned[UNSTABLE].vehicles = changed + n_vehicle;
+    CzRun *run[N] = {NULL};
+    CzError error = {0};
+    options.record = false;
+    if (cz_simulate_batch(N, planned, &options, run, &error) != CZ_OK)
+        fail_msg("%s", error.message);
+    CzRun *alone = run_alone(opened.model, "auto", false);
+    for (int i = 0; i < N; i++) {
+        const CzRunSummary *summary = cz_run_summary(run[i]);
+        if (i == REFUSED)
+            assert_non_null(strstr(summary->failure, "no model was built"));
+        else if (i == UNSTABLE)
+            assert_non_null(strstr(summary->failure, "not a finite number"));
+        else
+            assert_same_run(run[i], alone);
+        cz_run_free(run[i]);
+    }
+    cz_run_free(alone);
+    free(changed);
+    case_close(&opened);
+}
+
 /* Runs of other time steps, tracks or numbers of cars do not share a batch. */
 static void only_models_that_fit_share_a_batch(void **state) {
     (void)state;
@@ -349,6 +391,7 @@ int main(void) {
         cmocka_unit_test(a_design_among_others_is_what_it_is_alone_for_two_trains),
         cmocka_unit_test(scenarios_side_by_side_are_what_they_are_alone),
         cmocka_unit_test(variants_side_by_side_are_what_they_are_alone),
+        cmocka_unit_test(runs_that_fail_leave_their_neighbours_alone),
         cmocka_unit_test(only_models_that_fit_share_a_batch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

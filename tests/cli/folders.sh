@@ -107,7 +107,14 @@ if [ "$(id -u)" = 0 ] && mkdir -p disk && mount -t tmpfs -o size=64k tmpfs disk 
     check "a full disk leaves nothing, and is reported" full
     full_file() { exits 4 "$C" report out -o disk/a.html -q && says err.txt 'disk/a.html cannot be written: No space left on device' && [ -z "$(ls -A disk)" ]; }
     check "a full disk leaves no half file" full_file
+    full_search() { # its evaluations stay, and it goes on when there is space
+        exits 4 "$C" optimise small.yaml -o disk/search -q && says err.txt 'disk/search/' && says err.txt 'No space left on device' && n=$(wc -l <disk/search/history.jsonl) && [ "$n" -gt 10 ] && [ ! -e disk/search/outcome.json ] &&
+            mount -o remount,size=4m disk && exits 0 "$C" optimise small.yaml --resume disk/search && says err.txt "resuming after $((n - 1)) evaluations" && [ -f disk/search/outcome.json ]
+    }
+    check "a search whose results do not fit on the disk is resumed when they do" full_search
     mount -o remount,ro disk
+    locked_search() { exits 4 "$C" optimise small.yaml --resume disk/search && says err.txt 'Read-only file system' && exits 4 "$C" optimise small.yaml -o disk/other && says err.txt 'Read-only file system'; }
+    check "a search on a read-only disk is refused" locked_search
     locked() { early disk/out 'Read-only file system' && exits 4 "$C" plot out --svg disk/a.svg && says err.txt 'Read-only file system'; }
     check "a read-only disk is reported before the run" locked
     umount disk

@@ -1,7 +1,7 @@
-/* Lack of memory in the whole program: every request of run, check, optimise, sweep, sample,
- * explain, report, plot and compare fails once, also those of libraries and stdio. Either the
- * program reports that there is no memory, ends with exit code 5 and leaves nothing incomplete, or
- * its output equals that with enough memory to the last byte.
+/* Lack of memory in the whole program: every request of run, check, optimise, pareto, sweep,
+ * sample, explain, report, plot and compare fails once, also those of libraries and stdio. Either
+ * the program reports that there is no memory, ends with exit code 5 and leaves nothing incomplete,
+ * or its output equals that with enough memory to the last byte.
  *
  * The program runs in a process of its own each time. With an argument a command is tried at every
  * request: test_memory long. Otherwise at every n-th, so that all together take some seconds. */
@@ -266,6 +266,13 @@ static void challenge_reports_every_lack_of_memory(void **state) {
     fail_every_request("challenge SAMPLED -q -j 1 --runs 6 --json", 83);
 }
 
+static void pareto_reports_every_lack_of_memory(void **state) {
+    (void)state;
+    fail_every_request("pareto PROBLEM -q -j 1 -n 3 --minimise margin --minimise "
+                       "design.installed_length_mm -o out",
+                       97);
+}
+
 static void report_reports_every_lack_of_memory(void **state) {
     (void)state;
     fail_every_request("report MADE -q -j 1 -o page.html", 11);
@@ -351,6 +358,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(corridor_reports_every_lack_of_memory),
         cmocka_unit_test(challenge_reports_every_lack_of_memory),
         cmocka_unit_test(optimise_reports_every_lack_of_memory),
+        cmocka_unit_test(pareto_reports_every_lack_of_memory),
         cmocka_unit_test(a_lasting_lack_of_memory_is_reported_too),
     };
     return cmocka_run_group_tests(tests, enter_work_folder, leave_work_folder);

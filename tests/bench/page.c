@@ -1,6 +1,7 @@
 /* Prints the generated part of docs/performance.md.
  *
- *   bench_page MEASURED.json PROFILE.json     what bench --json and profile.sh have written
+ *   bench_page MEASURED.json PROFILE.json SEARCHES.csv   what bench --json, profile.sh and
+ *                                                        bench_searches --table have written
  */
 #include <math.h>
 #include <stdarg.h>
@@ -331,8 +332,144 @@ static void put_rates(void) {
         "are the same on every processor.");
 }
 
+/* ---- searches ---- */
+
+enum { N_COUNT = 4, MOST_GROUP = 200 };
+
+/* A problem searched by one method; NaN for an empty field. */
+typedef struct Searched {
+    char problem[64], method[32];
+    double passed[N_COUNT], distance[N_COUNT], reached;
+} Searched;
+
+static double next_field(char **rest) {
+    char *end, *field = *rest;
+    const double value = strtod(field, &end);
+    *rest = field + strcspn(field, ",\n");
+    *rest += **rest != '\0';
+    return end == field ? NAN : value;
+}
+
+static int read_searches(const char *file, Searched *searched) {
+    char line[512];
+    int n = 0;
+    FILE *csv = fopen(file, "r");
+    if (csv == NULL || fgets(line, sizeof line, csv) == NULL) {
+        fprintf(stderr, "bench_page: cannot read %s\n", file);
+        exit(1);
+    }
+    while (n < MOST_GROUP && fgets(line, sizeof line, csv) != NULL) {
+        Searched *it = &searched[n++];
+        char *rest = line;
+        sscanf(line, "%63[^,],%31[^,]", it->problem, it->method);
+        for (int skipped = 0; skipped < 3; skipped++)
+            rest = strchr(rest, ',') + 1;
+        for (int k = 0; k < N_COUNT; k++)
+            it->passed[k] = next_field(&rest);
+        for (int k = 0; k < N_COUNT; k++)
+            it->distance[k] = next_field(&rest);
+        it->reached = next_field(&rest);
+    }
+    fclose(csv);
+    return n;
+}
+
+static bool is_usual(const Searched *it) {
+    return strcmp(it->method, "auto") == 0;
+}
+
+/* The single algorithm that comes nearest to the best known design of a problem: the first within
+ * 1 %, else the nearest after all evaluations. */
+static const Searched *best_single(int n, const Searched *searched, const char *problem) {
+    const Searched *best = NULL;
+    for (int i = 0; i < n; i++) {
+        const Searched *it = &searched[i];
+        if (is_usual(it) || strcmp(it->problem, problem) != 0)
+            continue;
+        const double a = isnan(it->reached) ? INFINITY : it->reached;
+        const double b = best == NULL || isnan(best->reached) ? INFINITY : best->reached;
+        const double near = isnan(it->distance[N_COUNT - 1]) ? INFINITY : it->distance[N_COUNT - 1];
+        const double nearest = best == NULL || isnan(best->distance[N_COUNT - 1])
+                                   ? INFINITY
+                                   : best->distance[N_COUNT - 1];
+        if (best == NULL || a < b || (a == b && near < nearest))
+            best = it;
+    }
+    return best;
+}
+
+static void put_percent(double share) {
+    if (isnan(share))
+        printf(" - |");
+    else
+        printf(" %.1f %% |", fabs(100 * share));
+}
+
+static void put_methods(int n, const Searched *searched) {
+    puts("| method | passes after 50 | 100 | 200 | 400 | problems within 1 % after 400 |\n"
+         "|---|---|---|---|---|---|");
+    for (int first = 0; first < n; first++) {
+        if (first > 0 && strcmp(searched[first].method, searched[first - 1].method) == 0)
+            continue;
+        double passed[N_COUNT] = {0};
+        int n_problem = 0, n_near = 0;
+        for (int i = 0; i < n; i++) {
+            if (strcmp(searched[i].method, searched[first].method) != 0)
+                continue;
+            n_near += searched[i].distance[N_COUNT - 1] <= 0.01; /* false for NaN */
+            if (strcmp(searched[i].problem, "impossible-stop") == 0)
+                continue;
+            n_problem++;
+            for (int k = 0; k < N_COUNT; k++)
+                passed[k] += searched[i].passed[k];
+        }
+        printf("| `%s` |", searched[first].method);
+        for (int k = 0; k < N_COUNT; k++)
+            printf(" %.0f %% |", 100 * passed[k] / n_problem);
+        printf(" %d of %d |\n", n_near, n_problem + 1);
+    }
+}
+
+static void put_problems(int n, const Searched *searched) {
+    puts("\n| problem | evaluations to 1 %: `auto` | single | ratio | distance after 100: `auto` | "
+         "single | after 400: `auto` | single | best single algorithm |\n"
+         "|---|---|---|---|---|---|---|---|---|");
+    for (int i = 0; i < n && is_usual(&searched[i]); i++) {
+        const Searched *it = &searched[i], *single = best_single(n, searched, it->problem);
+        printf("| `%s` |", it->problem);
+        put_cell(it->reached);
+        put_cell(single->reached);
+        put_cell(it->reached / single->reached);
+        for (int k = 1; k < N_COUNT; k += 2) {
+            put_percent(it->distance[k]);
+            put_percent(single->distance[k]);
+        }
+        printf(" `%s` |\n", single->method);
+    }
+}
+
+static void put_searches(const char *file) {
+    Searched searched[MOST_GROUP];
+    const int n = read_searches(file, searched);
+    puts("\n## Searches\n\n"
+         "The usual search (`algorithm: auto`) and single algorithms of NLopt on the nine problems "
+         "of `problems/bench-designs`, each with 400 evaluations and ten seeds; algorithms without "
+         "random numbers ran once.\n"
+         "Single algorithms begin at the file's own design, begin again at their best one, and are "
+         "moved to the catalogue increments at the end, as `optimise` does with them.\n"
+         "The distance is that of the best design so far from the best known one "
+         "(`best-known.csv`), a share of the objective, of a margin its difference; medians over "
+         "the seeds. Where variables have increments, only designs on them count. No design of "
+         "`impossible-stop` passes: its largest margin counts, and it is left out of the shares "
+         "that pass.\n"
+         "These numbers are the same on every machine; `tests/bench/searches.c` has the "
+         "commands.\n");
+    put_methods(n, searched);
+    put_problems(n, searched);
+}
+
 int main(int argc, char **argv) {
-    if (argc != 3)
+    if (argc != 4)
         return 2;
     measured = read_json(argv[1]);
     profile = read_json(argv[2]);
@@ -343,6 +480,7 @@ int main(int argc, char **argv) {
     put_batches();
     put_solvers();
     put_program();
+    put_searches(argv[3]);
     put_shares();
     put_rates();
     return 0;

@@ -140,12 +140,16 @@ long cz_search_find(const CzSearch *search, const double *x) {
     return -1;
 }
 
+void cz_search_end_without_memory(CzSearch *search) {
+    if (search->status == CZ_OK)
+        finish(search, cz_no_memory(&search->error, "the designs of a search"), "no memory");
+}
+
 double *cz_search_numbers(CzSearch *search, size_t n) {
     double *number = calloc(n + 1, sizeof *number);
-    if (number != NULL || search->status != CZ_OK)
-        return number;
-    finish(search, cz_no_memory(&search->error, "the designs of a search"), "no memory");
-    return NULL;
+    if (number == NULL)
+        cz_search_end_without_memory(search);
+    return number;
 }
 
 static bool make_room(CzSearch *search, long n) {

@@ -100,6 +100,9 @@ long cz_search_left(const CzSearch *search);
 /* Ends a pause. */
 void cz_search_resume(CzSearch *search);
 
+/* Ends the search because memory is short. */
+void cz_search_end_without_memory(CzSearch *search);
+
 /* Memory for n numbers, freed by the caller; without memory NULL, and the search ends with that
  * status. */
 double *cz_search_numbers(CzSearch *search, size_t n);

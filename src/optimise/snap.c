@@ -324,6 +324,8 @@ static void dive(CzSurface *surface, long limit) {
                  .reserve = cz_arena_numbers(&arena, m),
                  .is_fixed = cz_arena_allocate(&arena, n, sizeof(bool))};
     int n_idle = 0;
+    if (arena.out_of_memory)
+        cz_search_end_without_memory(search);
     for (int k = 0; k < MOST_DIVES && !arena.out_of_memory && n_idle < MOST_IDLE_DIVES; k++) {
         if (search->n_record >= limit || !dive_once(surface, &dive))
             break;
@@ -369,8 +371,10 @@ void cz_snap(CzSurface *surface, long evaluations, bool is_last) {
     const size_t n = (size_t)surface->n;
     const long limit = search->n_record + evaluations;
     double *memory = calloc((BATCH + 1 + 4) * n, sizeof *memory);
-    if (memory == NULL)
+    if (memory == NULL) {
+        cz_search_end_without_memory(search);
         return;
+    }
     double *u = memory + (BATCH + 1 + 3) * n;
     cz_search_scale(search, cz_search_x(search, search->best), u);
     Shortlist list = {.surface = surface, .u = u};

@@ -306,6 +306,8 @@ bool cz_surface_best_in(const CzSurface *surface, const double *lo, const double
         fill_draft(&draft, surface, lo, hi, reserve);
         found = cz_linear_program(&draft.program, draft.d);
     }
+    if (!found)
+        cz_search_end_without_memory(surface->search);
     for (int i = 0; i < surface->n && found; i++)
         u[i] = fmin(fmax(surface->u[i] + draft.d[i], 0), 1);
     cz_arena_free(&draft.arena);

@@ -313,6 +313,8 @@ static CzStatus judge(Robust *robust, CzRobustRound *round, Found *found, int *n
         round->n_weak = found->challenge->is_broken ? found->challenge->n_weak : 0;
         *n_new += cz_robust_add_weak_points(&robust->cases, found->challenge);
     }
+    if (robust->cases.arena.out_of_memory)
+        return cz_no_memory(error, "further scenarios");
     compare(robust, found);
     return CZ_OK;
 }

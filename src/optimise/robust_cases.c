@@ -2,7 +2,6 @@
 #include "optimise/robust_cases.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "evaluate/sampling.h"
@@ -62,7 +61,8 @@ static double urgency_of(const CzSampledCheck *check) {
 
 int cz_robust_add_samples(CzRobustCases *cases, const CzSampling *sampling, double limit) {
     const CzSamplingParts *parts = sampling->parts;
-    bool *is_done = calloc((size_t)sampling->n_check + 1, sizeof *is_done);
+    bool *is_done =
+        cz_arena_allocate(&cases->arena, (size_t)sampling->n_check + 1, sizeof *is_done);
     int n_new = 0;
     while (is_done != NULL && n_new < CZ_ROBUST_MOST_NEW) {
         int first = -1;
@@ -83,7 +83,6 @@ int cz_robust_add_samples(CzRobustCases *cases, const CzSampling *sampling, doub
         n_new += add_case(cases, name, parts->cases.scenario[scenario], &parts->cases,
                           sampling->value + (size_t)k * (size_t)sampling->n_draw);
     }
-    free(is_done);
     return n_new;
 }
 

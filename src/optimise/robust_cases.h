@@ -33,10 +33,11 @@ static inline double cz_robust_violation(const CzSampledCheck *check) {
 }
 
 /* Adds the samples at the statistics that are violated or below `limit`: of each check name that in
- * the scenario that is worst, the lowest first. Returns how many are new; -1 without memory. */
+ * the scenario that is worst, the lowest first. Returns how many are new; without memory the arena
+ * says so. */
 int cz_robust_add_samples(CzRobustCases *cases, const CzSampling *sampling, double limit);
 
-/* Adds the weak points that fail. Returns how many are new; -1 without memory. */
+/* Adds the weak points that fail. Returns how many are new; without memory the arena says so. */
 int cz_robust_add_weak_points(CzRobustCases *cases, const CzChallenge *challenge);
 
 #endif

@@ -211,9 +211,11 @@ static double nominal_margin(const CzSampling *sampling) {
 
 /* ---- rounds ---------------------------------------------------------------------------------- */
 
-/* Largest violation of the statistic of a check. */
+/* Largest violation of the statistic of a check; 0 when the samples are judged to hold. */
 static double violation_in(const CzSampling *sampling) {
-    double worst = 0;
+    double worst = CZ_ROBUST_NEAR;
+    if (sampling->judgement != CZ_VERDICT_FAIL)
+        return 0;
     for (int c = 0; c < sampling->n_check; c++)
         worst = fmax(worst, cz_robust_violation(&sampling->check[c]));
     return worst;

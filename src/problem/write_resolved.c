@@ -193,20 +193,26 @@ static bool write_inner_path(char *text, size_t size, const CzRecord *record, si
     return false;
 }
 
-static void write_target(const Writer *writer, const CzTarget *target) {
+/* Path of a target in the vehicles. */
+static const char *path_of(const Writer *writer, const CzTarget *target,
+                           char text[2 * CZ_PATH_ROOM]) {
     const CzInput *input = &writer->problem->input;
     char inner[CZ_PATH_ROOM] = "";
     int train = 0, vehicle = target->vehicle;
-    if (vehicle < 0) { /* not in a vehicle, so not from a part */
-        fprintf(writer->stream, "\"%s\"", target->place);
-        return;
-    }
+    if (vehicle < 0) /* not in a vehicle, so not from a part */
+        return target->place;
     while (vehicle >= input->trains[train].n_vehicles)
         vehicle -= input->trains[train++].n_vehicles;
     write_inner_path(inner, sizeof inner, &cz_records[CZ_RECORD_CzVehicle], target->offset);
-    fprintf(writer->stream, "\"trains.%s.vehicles.%s%s%s%s\"", input->trains[train].name,
-            writer->problem->vehicle[target->vehicle].name, inner,
-            target->suffix[0] != '\0' ? "_" : "", target->suffix);
+    snprintf(text, 2 * CZ_PATH_ROOM, "trains.%.48s.vehicles.%.48s%s%s%.16s",
+             input->trains[train].name, writer->problem->vehicle[target->vehicle].name, inner,
+             target->suffix[0] != '\0' ? "_" : "", target->suffix);
+    return text;
+}
+
+static void write_target(const Writer *writer, const CzTarget *target) {
+    char text[2 * CZ_PATH_ROOM];
+    write_text(writer->stream, path_of(writer, target, text));
 }
 
 /* Writes one variable that drives the places of one match, or of all matches when `match` < 0. */

@@ -32,12 +32,15 @@ static void check_same_items(const CzKey *key, const char *a, const char *b) {
 }
 
 /* Compares two records value by value; design variables are written in another form and compared by
- * their places. */
+ * their places, uncertain numbers with other paths to the same places. */
 static void check_same_record(const CzRecord *record, const char *a, const char *b) {
     assert_int_equal(*(const bool *)a, *(const bool *)b);
+    const bool has_other_paths = record == &cz_records[CZ_RECORD_CzScatter];
     for (int i = 0; i < record->n_key; i++) {
         const CzKey *key = &record->key[i];
         const char *first = a + key->offset, *second = b + key->offset;
+        if (has_other_paths && (key->kind == CZ_KEY_TEXT || strcmp(key->stem, "paths") == 0))
+            continue;
         switch (key->kind) {
         case CZ_KEY_NUMBER:
             assert_memory_equal(first, second, sizeof(double));

@@ -13,6 +13,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "evaluate/evaluator.h"
+#include "optimise/replay.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -185,10 +186,8 @@ static void count(const CzProgress *progress, void *data) {
 
 /* The part of the journal that belongs to the next search. */
 static CzJournal rest_of_journal(const Front *front) {
-    CzJournal rest = *front->options->search.journal;
+    CzJournal rest = cz_journal_rest(front->options->search.journal, front->n_answered);
     rest.n_earlier = 0;
-    rest.answer += front->n_answered < rest.n_answer ? front->n_answered : rest.n_answer;
-    rest.n_answer -= front->n_answered < rest.n_answer ? front->n_answered : rest.n_answer;
     return rest;
 }
 

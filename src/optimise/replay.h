@@ -58,4 +58,13 @@ void cz_replay_note(CzReplay *replay, const CzRecord *record, const double *x);
 CZ_MUST_CHECK CzStatus cz_replay_keep(CzReplay *replay, const char *phase, const CzBatch *batch,
                                       CzError *error);
 
+/* A journal without its first n answers, for the next of several searches. */
+static inline CzJournal cz_journal_rest(const CzJournal *journal, long n) {
+    CzJournal rest = *journal;
+    const long n_used = n < journal->n_answer ? n : journal->n_answer;
+    rest.answer = n_used > 0 ? journal->answer + n_used : journal->answer;
+    rest.n_answer -= n_used;
+    return rest;
+}
+
 #endif

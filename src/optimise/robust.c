@@ -145,9 +145,7 @@ static CzStatus search(Robust *robust, CzRobustRound *round, CzError *error) {
     CzCombinations combinations;
     CzJournal journal;
     if (options.journal != NULL) {
-        journal = *options.journal;
-        journal.answer += robust->n_answered;
-        journal.n_answer -= robust->n_answered;
+        journal = cz_journal_rest(options.journal, robust->n_answered);
         journal.n_earlier = robust->result->n_round == 0 ? journal.n_earlier : 0;
         options.journal = &journal;
     }

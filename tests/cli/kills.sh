@@ -65,6 +65,8 @@ killed() { # killed SECONDS COMMAND FILE OPTION...
         wait $victim || code=$?
         [ $code -le 1 ] || { echo "exit code $code"; cat e; return 1; }
         [ ! -f out/report.html ] || return 0
+        echo "it ended without a report" && cat e
+        return 1
     done
 }
 all() {

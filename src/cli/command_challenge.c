@@ -23,9 +23,7 @@ static int finish(CzSession *session, const CzChallenge *challenge) {
     const char *folder = arguments->text[CZ_OPTION_OUTPUT];
     CzReport report = cz_session_report(session, CZ_REPORT_CHALLENGE, challenge->wall_s);
     report.challenge = challenge;
-    int code = cz_keep_results(arguments, &report, folder);
-    if (code == 0)
-        code = cz_print_results(arguments, &report);
+    const int code = cz_session_deliver(session, &report);
     if (code != 0)
         return code;
     cz_tell(arguments, "%d runs in %.3g s%s%s", challenge->n_point, challenge->wall_s,
@@ -33,7 +31,8 @@ static int finish(CzSession *session, const CzChallenge *challenge) {
     return judge(arguments, challenge);
 }
 
-static int challenge_file(CzSession *session) {
+static int challenge_file(CzSession *session, void *data) {
+    (void)data;
     const CzArguments *arguments = session->arguments;
     CzChallengeOptions options = cz_challenge_options_default();
     if (arguments->n_run > 0)
@@ -56,13 +55,5 @@ static int challenge_file(CzSession *session) {
 }
 
 int cz_command_challenge(const CzArguments *arguments) {
-    CzSession session;
-    int code = cz_session_read(&session, arguments, arguments->operand[0]); /* reports mistakes */
-    if (code == 0)
-        code = cz_session_check_folder(&session, arguments->text[CZ_OPTION_OUTPUT],
-                                       arguments->text[CZ_OPTION_REPLACE] != NULL);
-    if (code == 0)
-        code = challenge_file(&session);
-    cz_session_end(&session);
-    return code;
+    return cz_session_study(arguments, challenge_file, NULL);
 }

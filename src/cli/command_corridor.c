@@ -23,9 +23,7 @@ static int finish(CzSession *session, const CzCorridor *corridor) {
     const char *folder = arguments->text[CZ_OPTION_OUTPUT];
     CzReport report = cz_session_report(session, CZ_REPORT_CORRIDOR, corridor->wall_s);
     report.corridor = corridor;
-    int code = cz_keep_results(arguments, &report, folder);
-    if (code == 0)
-        code = cz_print_results(arguments, &report);
+    const int code = cz_session_deliver(session, &report);
     if (code != 0)
         return code;
     cz_tell(arguments, "%d curves in %.3g s%s%s", corridor->n_curve, corridor->wall_s,
@@ -33,7 +31,8 @@ static int finish(CzSession *session, const CzCorridor *corridor) {
     return judge(arguments, corridor);
 }
 
-static int find_corridor(CzSession *session) {
+static int find_corridor(CzSession *session, void *data) {
+    (void)data;
     const CzArguments *arguments = session->arguments;
     const CzProblemOptions problem_options = cz_session_problem_options(arguments);
     CzCorridorOptions options = cz_corridor_options_default();
@@ -60,13 +59,5 @@ static int find_corridor(CzSession *session) {
 }
 
 int cz_command_corridor(const CzArguments *arguments) {
-    CzSession session;
-    int code = cz_session_read(&session, arguments, arguments->operand[0]); /* reports mistakes */
-    if (code == 0)
-        code = cz_session_check_folder(&session, arguments->text[CZ_OPTION_OUTPUT],
-                                       arguments->text[CZ_OPTION_REPLACE] != NULL);
-    if (code == 0)
-        code = find_corridor(&session);
-    cz_session_end(&session);
-    return code;
+    return cz_session_study(arguments, find_corridor, NULL);
 }

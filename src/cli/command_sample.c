@@ -28,9 +28,7 @@ static int finish(CzSession *session, const CzSampling *sampling) {
     const char *folder = arguments->text[CZ_OPTION_OUTPUT];
     CzReport report = cz_session_report(session, CZ_REPORT_SAMPLE, sampling->wall_s);
     report.sampling = sampling;
-    int code = cz_keep_results(arguments, &report, folder);
-    if (code == 0)
-        code = cz_print_results(arguments, &report);
+    const int code = cz_session_deliver(session, &report);
     if (code != 0)
         return code;
     cz_tell(arguments, "%d of %d samples in %.3g s%s%s", sampling->n_run, sampling->n_sample,
@@ -52,7 +50,8 @@ static CzStatus recall(CzSampling *sampling, void *data, CzError *error) {
     return CZ_OK;
 }
 
-static int sample_file(CzSession *session) {
+static int sample_file(CzSession *session, void *data) {
+    (void)data;
     const CzArguments *arguments = session->arguments;
     const CzProblemOptions problem_options = cz_session_problem_options(arguments);
     CzSampleOptions options = cz_sample_options_default();
@@ -81,13 +80,5 @@ static int sample_file(CzSession *session) {
 }
 
 int cz_command_sample(const CzArguments *arguments) {
-    CzSession session;
-    int code = cz_session_read(&session, arguments, arguments->operand[0]); /* reports mistakes */
-    if (code == 0)
-        code = cz_session_check_folder(&session, arguments->text[CZ_OPTION_OUTPUT],
-                                       arguments->text[CZ_OPTION_REPLACE] != NULL);
-    if (code == 0)
-        code = sample_file(&session);
-    cz_session_end(&session);
-    return code;
+    return cz_session_study(arguments, sample_file, NULL);
 }

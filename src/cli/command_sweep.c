@@ -46,9 +46,7 @@ static int finish(CzSession *session, const CzSweep *sweep) {
     const char *folder = arguments->text[CZ_OPTION_OUTPUT];
     CzReport report = cz_session_report(session, CZ_REPORT_SWEEP, sweep->wall_s);
     report.sweep = sweep;
-    int code = cz_keep_results(arguments, &report, folder);
-    if (code == 0)
-        code = cz_print_results(arguments, &report);
+    const int code = cz_session_deliver(session, &report);
     if (code != 0)
         return code;
     const int n_run = count_run(sweep);
@@ -64,7 +62,8 @@ static int finish(CzSession *session, const CzSweep *sweep) {
 static const char *const usual_metrics[] = {"elements.stroke_used", "interfaces.peak_force_kN",
                                             "energy.absorbers_kJ", "vehicles.max_wheel_lift_mm"};
 
-static int sweep_file(CzSession *session, const CzSweepAxis *axis) {
+static int sweep_file(CzSession *session, void *data) {
+    const CzSweepAxis *axis = data;
     const CzArguments *arguments = session->arguments;
     const CzProblemOptions problem_options = cz_session_problem_options(arguments);
     CzSweepOptions options = cz_sweep_options_default();
@@ -99,17 +98,6 @@ static int sweep_file(CzSession *session, const CzSweepAxis *axis) {
 
 int cz_command_sweep(const CzArguments *arguments) {
     CzSweepAxis axis[CZ_MOST_AXES];
-    CzSession session;
-    int code = read_axes(arguments, axis);
-    if (code != 0)
-        return code;
-    code = cz_session_read(&session, arguments, arguments->operand[0]); /* reports every mistake */
-    const char *folder = arguments->text[CZ_OPTION_OUTPUT];
-    if (code == 0)
-        code =
-            cz_session_check_folder(&session, folder, arguments->text[CZ_OPTION_REPLACE] != NULL);
-    if (code == 0)
-        code = sweep_file(&session, axis);
-    cz_session_end(&session);
-    return code;
+    const int code = read_axes(arguments, axis);
+    return code != 0 ? code : cz_session_study(arguments, sweep_file, axis);
 }

@@ -183,3 +183,21 @@ int cz_session_fail(const CzSession *session, const CzError *error) {
     cz_print_mistake(session->arguments, "error", session->problem, error);
     return cz_status_exit_code(error->status);
 }
+
+int cz_session_deliver(const CzSession *session, const CzReport *report) {
+    const CzArguments *arguments = session->arguments;
+    const int code = cz_keep_results(arguments, report, arguments->text[CZ_OPTION_OUTPUT]);
+    return code != 0 ? code : cz_print_results(arguments, report);
+}
+
+int cz_session_study(const CzArguments *arguments, CzStudy study, void *data) {
+    CzSession session;
+    int code = cz_session_read(&session, arguments, arguments->operand[0]);
+    if (code == 0)
+        code = cz_session_check_folder(&session, arguments->text[CZ_OPTION_OUTPUT],
+                                       arguments->text[CZ_OPTION_REPLACE] != NULL);
+    if (code == 0)
+        code = study(&session, data);
+    cz_session_end(&session);
+    return code;
+}

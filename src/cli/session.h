@@ -51,6 +51,15 @@ CZ_MUST_CHECK int cz_keep_results(const CzArguments *arguments, const CzReport *
 CZ_MUST_CHECK int cz_session_check_folder(const CzSession *session, const char *folder,
                                           bool replaces_search);
 
+/* Writes the folder of -o, if any, then prints; returns the exit code of a failure, 0 without. */
+CZ_MUST_CHECK int cz_session_deliver(const CzSession *session, const CzReport *report);
+
+/* A command that studies a problem by many runs: reads the problem, reports its mistakes, checks
+ * that the folder of -o can be written, and calls `study`, which returns the exit code; `data` is
+ * passed on to it. */
+typedef int (*CzStudy)(CzSession *session, void *data);
+int cz_session_study(const CzArguments *arguments, CzStudy study, void *data);
+
 /* Reports a failure of this session's problem; returns its exit code. */
 int cz_session_fail(const CzSession *session, const CzError *error);
 

@@ -175,3 +175,25 @@ void cz_combinations_free(CzCombinations *combinations) {
     cz_replay_free(&combinations->replay);
     cz_arena_free(&combinations->arena);
 }
+
+long cz_combinations_n_record(const CzCombinations *combinations) {
+    long n = 0;
+    for (int k = 0; k < combinations->n; k++)
+        n += combinations->subspace[k].search.n_record;
+    return n;
+}
+
+void cz_combinations_history(const CzCombinations *combinations, int n_variable, CzTrial *trial,
+                             double *x) {
+    for (int k = 0; k < combinations->n; k++) {
+        const CzSubspace *subspace = &combinations->subspace[k];
+        for (long i = 0; i < subspace->search.n_record; i++, x += n_variable) {
+            const CzRecord *record = &subspace->search.record[i];
+            cz_subspace_expand(subspace, cz_search_x(&subspace->search, i), x);
+            *trial++ = (CzTrial){.objective = record->objective,
+                                 .violation = record->violation,
+                                 .feasible = record->violation <= 0,
+                                 .phase = record->phase};
+        }
+    }
+}

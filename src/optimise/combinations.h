@@ -21,6 +21,12 @@ CZ_MUST_CHECK CzStatus cz_combinations(CzEvaluator *evaluator, const CzOptimiseO
                                        CzCombinations *combinations, CzError *error);
 void cz_combinations_free(CzCombinations *combinations);
 
+/* Number of designs that all searches evaluated, and the designs in order: trial (n), x (n x
+ * n_variable). */
+long cz_combinations_n_record(const CzCombinations *combinations);
+void cz_combinations_history(const CzCombinations *combinations, int n_variable, CzTrial *trial,
+                             double *x);
+
 /* The record with the result of a search: the best one on the catalogue increments when there are
  * any. -1 when the search evaluated no design that is valid in a file and has no failed run. */
 long cz_combinations_record(const CzSearch *search);

@@ -28,29 +28,6 @@ CzOptimiseOptions cz_optimise_options_default(void) {
 
 /* ---- the outcome ----------------------------------------------------------------------------- */
 
-static long n_record(const CzCombinations *combinations) {
-    long n = 0;
-    for (int k = 0; k < combinations->n; k++)
-        n += combinations->subspace[k].search.n_record;
-    return n;
-}
-
-static void copy_history(const CzCombinations *combinations, CzOutcome *outcome) {
-    CzTrial *trial = outcome->trial;
-    double *x = outcome->trial_x;
-    for (int k = 0; k < combinations->n; k++) {
-        const CzSubspace *subspace = &combinations->subspace[k];
-        for (long i = 0; i < subspace->search.n_record; i++, x += outcome->n_variable) {
-            const CzRecord *record = &subspace->search.record[i];
-            cz_subspace_expand(subspace, cz_search_x(&subspace->search, i), x);
-            *trial++ = (CzTrial){.objective = record->objective,
-                                 .violation = record->violation,
-                                 .feasible = record->violation <= 0,
-                                 .phase = record->phase};
-        }
-    }
-}
-
 /* A design that passed in a search. */
 typedef struct Passed {
     const CzSearch *search;
@@ -239,7 +216,7 @@ static CzStatus fill_outcome(CzEvaluator *evaluator, const CzCombinations *combi
     const CzSubspace *chosen = &combinations->subspace[combinations->chosen];
     if (options->start != NULL)
         memcpy(outcome->start, options->start, (size_t)outcome->n_variable * sizeof(double));
-    copy_history(combinations, outcome);
+    cz_combinations_history(combinations, outcome->n_variable, outcome->trial, outcome->trial_x);
     CZ_TRY(confirm(evaluator, chosen, outcome, error));
     if (cz_evaluator_is_fit(evaluator))
         CZ_TRY(
@@ -295,7 +272,8 @@ CzStatus cz_optimise(CzEvaluator *evaluator, const CzOptimiseOptions *given, CzO
     CzStatus status = cz_combinations(evaluator, &options, &combinations, error);
     cz_evaluator_set_stop(evaluator, NULL); /* the best design is evaluated in any case */
     if (status == CZ_OK)
-        status = cz_outcome_create(evaluator, n_record(&combinations), outcome, error);
+        status =
+            cz_outcome_create(evaluator, cz_combinations_n_record(&combinations), outcome, error);
     if (status == CZ_OK)
         status = fill_outcome(evaluator, &combinations, &options, *outcome, error);
     if (status == CZ_OK)

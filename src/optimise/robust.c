@@ -103,9 +103,7 @@ static CzStatus build(Robust *robust, CzError *error) {
 
 /* Appends the history of a round. */
 static CzStatus keep_history(Robust *robust, const CzCombinations *combinations, CzError *error) {
-    long n = robust->n_trial;
-    for (int k = 0; k < combinations->n; k++)
-        n += combinations->subspace[k].search.n_record;
+    const long n = robust->n_trial + cz_combinations_n_record(combinations);
     const size_t size = (size_t)robust->n_variable * sizeof(double);
     CzTrial *trial = realloc(robust->trial, ((size_t)n + 1) * sizeof *trial);
     robust->trial = trial != NULL ? trial : robust->trial;
@@ -113,18 +111,9 @@ static CzStatus keep_history(Robust *robust, const CzCombinations *combinations,
     robust->trial_x = x != NULL ? x : robust->trial_x;
     if (trial == NULL || x == NULL)
         return cz_no_memory(error, "the history");
-    for (int k = 0; k < combinations->n; k++) {
-        const CzSubspace *subspace = &combinations->subspace[k];
-        for (long i = 0; i < subspace->search.n_record; i++) {
-            const CzRecord *record = &subspace->search.record[i];
-            cz_subspace_expand(subspace, cz_search_x(&subspace->search, i),
-                               x + robust->n_trial * robust->n_variable);
-            trial[robust->n_trial++] = (CzTrial){.objective = record->objective,
-                                                 .violation = record->violation,
-                                                 .feasible = record->violation <= 0,
-                                                 .phase = record->phase};
-        }
-    }
+    cz_combinations_history(combinations, robust->n_variable, trial + robust->n_trial,
+                            x + robust->n_trial * robust->n_variable);
+    robust->n_trial = n;
     return CZ_OK;
 }
 

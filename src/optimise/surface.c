@@ -49,7 +49,7 @@ static void set_base(CzSurface *surface, long record, int point, const double *u
 }
 
 /* Replaces the slopes of a detail by its secants (a column of many_d), unless it is violated and no
- * variable changes it, as when a stroke is used up: the slopes from the designs before lead back.
+ * variable changes it, as when a stroke is exhausted: the slopes from the designs before lead back.
  */
 static void renew_slopes(CzSurface *surface, int k) {
     const double flat = 1e-2; /* of a margin over the range of a variable */

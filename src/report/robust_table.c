@@ -11,19 +11,12 @@
 
 enum { MOST_CHECKS = 12 };
 
-static void put_margin(CzReportTable *table, double margin) {
-    char text[CZ_FIGURE_ROOM];
-    const char *word = isnan(margin) ? "-" : isinf(margin) ? "failed" : NULL;
-    cz_table_put_styled(table, word != NULL ? word : cz_figure_margin(text, margin),
-                        margin < 0 ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
-}
-
 static void put_round(CzReportTable *table, const CzRobustRound *round, int number) {
     cz_table_put_format(table, "%d%s", number, round->is_best ? " (result)" : "");
     cz_table_put_format(table, "%d", round->n_scenario);
     cz_table_put_format(table, "%ld", round->n_evaluation);
-    put_margin(table, round->nominal_margin);
-    put_margin(table, round->required_margin);
+    cz_sample_put_margin(table, round->nominal_margin);
+    cz_sample_put_margin(table, round->required_margin);
     cz_table_put_format(table, "%d of %d", round->n_pass, round->n_sample);
     if (round->n_weak < 0)
         cz_table_put(table, "not challenged");
@@ -50,8 +43,8 @@ void cz_robust_begin_checks(CzReportTable *table, const CzRobust *robust, const 
         n++;
         cz_table_put(table, check->name);
         cz_table_put(table, check->scenario);
-        put_margin(table, check->nominal);
-        put_margin(table, check->required);
+        cz_sample_put_margin(table, check->nominal);
+        cz_sample_put_margin(table, check->required);
         cz_table_put_format(table, "%d", check->n_fail);
     }
 }

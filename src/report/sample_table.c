@@ -100,7 +100,7 @@ const char *cz_sample_word(CzVerdict verdict, CzStyle *style) {
 
 /* ---- checks ---- */
 
-static void put_margin(CzReportTable *table, double margin) {
+void cz_sample_put_margin(CzReportTable *table, double margin) {
     char text[CZ_FIGURE_ROOM];
     const bool is_failed = isinf(margin);
     cz_table_put_styled(table, is_failed ? "failed" : cz_figure_margin(text, margin),
@@ -112,11 +112,11 @@ static void put_check(CzReportTable *table, const CzSampling *sampling,
     char text[CZ_FIGURE_ROOM];
     cz_table_put(table, check->name);
     cz_table_put(table, check->scenario);
-    put_margin(table, check->nominal);
-    put_margin(table, check->bare);
+    cz_sample_put_margin(table, check->nominal);
+    cz_sample_put_margin(table, check->bare);
     for (int i = 0; i < CZ_N_SAMPLE_QUANTILE; i++)
-        put_margin(table, check->margin.quantile[i]);
-    put_margin(table, check->margin.least);
+        cz_sample_put_margin(table, check->margin.quantile[i]);
+    cz_sample_put_margin(table, check->margin.least);
     cz_table_put_styled(table, cz_figure_digits(text, 9, check->n_fail),
                         check->n_fail > 0 ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
     cz_table_put(

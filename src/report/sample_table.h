@@ -28,4 +28,7 @@ int cz_sample_begin_checks(CzReportTable *table, const CzSampling *sampling, con
 #define CZ_DRAW_HEADS(number) number ";distribution;range;>values"
 void cz_sample_begin_draws(CzReportTable *table, const char *heads, int n_draw, const CzDraw *draw);
 
+/* Puts a margin: "failed" for -infinity, that of a failed run, "-" for NaN. */
+void cz_sample_put_margin(CzReportTable *table, double margin);
+
 #endif

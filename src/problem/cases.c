@@ -38,9 +38,7 @@ static const CzNode *text(const Writer *writer, const char *value) {
 
 static const CzNode *number(const Writer *writer, double value) {
     char digits[CZ_NUMBER_TEXT];
-    cz_number_print(digits, value);
-    char *copy = cz_arena_copy_text(writer->arena, digits, strlen(digits));
-    return copy != NULL ? cz_node_text(writer->arena, copy, &writer->place) : NULL;
+    return cz_node_text(writer->arena, cz_number_print(digits, value), &writer->place);
 }
 
 static const CzNode *make_change(const Writer *writer, const CzCaseChange *change) {

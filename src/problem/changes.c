@@ -27,9 +27,7 @@ static bool make_put(CzArena *arena, const CzChange *change, const CzNode *place
     char text[CZ_NUMBER_TEXT];
     *put = (CzPut){0};
     put->kind = kinds[cz_change_kind(change, &put->number)];
-    cz_number_print(text, put->number);
-    const char *copy = cz_arena_copy_text(arena, text, strlen(text));
-    put->value = copy != NULL ? cz_node_text(arena, copy, place) : NULL;
+    put->value = cz_node_text(arena, cz_number_print(text, put->number), place);
     return put->value != NULL;
 }
 
@@ -59,11 +57,10 @@ static bool make_settings(CzProblem *made, const CzScenario *scenario, int index
         const CzNode place = {.source = source, .line = i + 1, .column = 1};
         char text[CZ_PATH_ROOM];
         const char *path = cz_change_path(change->path, index, text);
-        const char *copy = cz_arena_copy_text(&reader->arena, path, strlen(path));
-        setting[i].place = copy != NULL ? cz_node_text(&reader->arena, copy, &place) : NULL;
+        setting[i].place = cz_node_text(&reader->arena, path, &place);
         if (setting[i].place == NULL || !make_put(&reader->arena, change, &place, &setting[i].put))
             return false;
-        setting[i].path = copy;
+        setting[i].path = setting[i].place->text;
         setting[i].is_late = cz_change_is_late(change->path);
     }
     return source != NULL;

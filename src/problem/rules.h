@@ -53,6 +53,7 @@ void cz_rules_check_scenarios(const CzRules *rules);
 void cz_rules_check_design(const CzRules *rules, CzTargets *targets);
 void cz_rules_check_fit(const CzRules *rules);
 
+void cz_rules_check_scenario_names(const CzRules *rules, const CzTexts *names);
 void cz_rules_check_uncertainty(const CzRules *rules);
 
 /* All rules except those on limits, variables and uncertain numbers. */

@@ -11,12 +11,14 @@
 
 /* ---- limits ---- */
 
-static void check_scenario_named(const CzRules *rules, const char *const *name) {
-    CzSuggestion suggestion = {0};
-    if (cz_input_find_scenario(rules->input, *name, &suggestion) >= 0)
-        return;
-    cz_rule_broken(rules, name, "there is no scenario '%.48s'", *name);
-    cz_mistake_suggest(rules->mistakes, &suggestion);
+void cz_rules_check_scenario_names(const CzRules *rules, const CzTexts *names) {
+    for (int i = 0; i < names->n_text; i++) {
+        CzSuggestion suggestion = {0};
+        if (cz_input_find_scenario(rules->input, names->text[i], &suggestion) >= 0)
+            continue;
+        cz_rule_broken(rules, &names->text[i], "there is no scenario '%.48s'", names->text[i]);
+        cz_mistake_suggest(rules->mistakes, &suggestion);
+    }
 }
 
 /* A word that is not in the list makes limits PROVISIONAL; it may be a typing error of `user`,
@@ -43,8 +45,7 @@ static void check_limits(const CzRules *rules, const CzLimit *limits, int n_limi
             cz_rule_broken(rules, has_min ? (const void *)&limit->min : limit,
                            "a limit needs exactly one of 'max' and 'min'");
         check_confidence(rules, &limit->confidence);
-        for (int k = 0; k < limit->scenarios.n_text; k++)
-            check_scenario_named(rules, &limit->scenarios.text[k]);
+        cz_rules_check_scenario_names(rules, &limit->scenarios);
     }
 }
 

@@ -7,16 +7,6 @@
 #include "base/number.h"
 #include "problem/changes.h"
 
-static void check_scenarios(const CzRules *rules, const CzTexts *names) {
-    for (int i = 0; i < names->n_text; i++) {
-        CzSuggestion suggestion = {0};
-        if (cz_input_find_scenario(rules->input, names->text[i], &suggestion) >= 0)
-            continue;
-        cz_rule_broken(rules, &names->text[i], "there is no scenario '%.48s'", names->text[i]);
-        cz_mistake_suggest(rules->mistakes, &suggestion);
-    }
-}
-
 /* Exactly one kind of range, and what it needs. */
 static void check_range(const CzRules *rules, const CzScatter *scatter) {
     const bool has_min = cz_rule_is_written(rules, &scatter->min);
@@ -47,8 +37,8 @@ static void check_range(const CzRules *rules, const CzScatter *scatter) {
     }
 }
 
-/* Whether a path names numbers that may scatter. */
-static void check_path(const CzRules *rules, const CzScatter *scatter, const char *const *path) {
+/* Finds the numbers that a path names, or reports why there are none. */
+static CzTargets find(const CzRules *rules, const char *const *path) {
     CzTargets targets = {0};
     CzError error = {0};
     const CzStatus status = cz_problem_find_changed(rules->problem, 0, *path, &targets, &error);
@@ -56,6 +46,12 @@ static void check_path(const CzRules *rules, const CzScatter *scatter, const cha
         rules->mistakes->arena->out_of_memory = true;
     if (status == CZ_STATUS_INPUT)
         cz_rule_broken(rules, path, "%s" CZ_HELP "%s", error.message, error.help);
+    return targets;
+}
+
+/* Whether a path names numbers that may scatter. */
+static void check_path(const CzRules *rules, const CzScatter *scatter, const char *const *path) {
+    const CzTargets targets = find(rules, path);
     for (int i = 0; i < targets.n && !isnan(scatter->tolerance_percent); i++)
         if (isnan(targets.target[i].value)) {
             cz_rule_broken(rules, path,
@@ -92,23 +88,15 @@ static void check_span(const CzRules *rules, const CzSpan *span) {
                        "the envelope is of operation; parts scatter by 'parameters'");
     if (rules->reader->has_holes || rules->mistakes->n_mistake > 0 || span->path == NULL)
         return;
-    CzTargets targets = {0};
-    CzError error = {0};
-    const CzStatus status =
-        cz_problem_find_changed(rules->problem, 0, span->path, &targets, &error);
-    if (status == CZ_STATUS_NO_MEMORY)
-        rules->mistakes->arena->out_of_memory = true;
-    if (status == CZ_STATUS_INPUT)
-        cz_rule_broken(rules, &span->path, "%s" CZ_HELP "%s", error.message, error.help);
-    free(targets.target);
+    free(find(rules, &span->path).target);
 }
 
 void cz_rules_check_uncertainty(const CzRules *rules) {
     const CzUncertainty *uncertainty = &rules->input->uncertainty;
     if (!uncertainty->given)
         return;
-    check_scenarios(rules, &uncertainty->scenarios);
-    check_scenarios(rules, &uncertainty->challenged);
+    cz_rules_check_scenario_names(rules, &uncertainty->scenarios);
+    cz_rules_check_scenario_names(rules, &uncertainty->challenged);
     for (int i = 0; i < uncertainty->n_parameters; i++)
         if (uncertainty->parameters[i].given)
             check_scatter(rules, &uncertainty->parameters[i]);

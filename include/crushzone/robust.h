@@ -42,6 +42,8 @@ typedef struct CzRobust {
     CzChallenge *challenge; /* of the best design; NULL when it was not challenged */
     int n_round;
     CzRobustRound *round; /* (n_round) */
+    struct CzRobustCases
+        *added; /* scenarios of the last search behind those of the file; private */
 } CzRobust;
 
 /* Whether a problem asks for this search: it has variables, no matches, and numbers that scatter or

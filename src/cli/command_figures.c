@@ -1,4 +1,5 @@
 /* `report`, `plot` and `compare`: figures and pages of existing results. */
+#include "base/error.h"
 #include "cli/command.h"
 #include "cli/messages.h"
 #include "cli/result.h"
@@ -34,6 +35,22 @@ static void find_report(const CzArguments *arguments, char path[4096]) {
         snprintf(path, 4096, "%.4000s%sreport.html", is_folder ? folder : "", is_folder ? "/" : "");
 }
 
+/* Whether a folder is that of a search against scatter, whose rounds and samples only the search
+ * itself can write again. */
+static bool is_against_scatter(const char *folder) {
+    return cz_recall_is_there(folder, "samples.html");
+}
+
+static int refuse_report(const CzArguments *arguments, const char *folder) {
+    CzError error;
+    cz_fail(&error, CZ_STATUS_INPUT,
+            "%.200s is the folder of a search against scatter, whose report needs the samples of "
+            "its rounds" CZ_HELP "crushzone optimise FILE --resume %.200s writes the folder "
+            "again; for a report of the best design only give a file: -o best.html",
+            folder, folder);
+    return cz_tell_error(arguments, &error);
+}
+
 /* The report of the best design of a search alone has a separate file. */
 int cz_command_report(const CzArguments *arguments) {
     char path[4096];
@@ -43,6 +60,8 @@ int cz_command_report(const CzArguments *arguments) {
     restore(arguments);
     const bool is_search = arguments->text[CZ_OPTION_OUTPUT] == NULL && cz_recall_is_search(folder);
     char problem[4096];
+    if (is_search && is_against_scatter(folder))
+        return refuse_report(arguments, folder);
     find_report(arguments, path);
     if (is_search)
         cz_recall_problem(folder, problem);

@@ -43,14 +43,9 @@ int cz_cases_n_change(const CzCases *cases) {
 }
 
 void cz_case_changes(const CzCases *cases, const double *value, CzCaseChange *change) {
-    static const CzCaseKind kinds[] = {[CZ_DRAW_VALUE] = CZ_CASE_VALUE,
-                                       [CZ_DRAW_FACTOR] = CZ_CASE_FACTOR,
-                                       [CZ_DRAW_ADD] = CZ_CASE_ADD};
     for (int d = 0; d < cases->n_draw; d++)
         for (int i = 0; i < cases->draw[d].n_path; i++)
-            *change++ = (CzCaseChange){.path = cases->draw[d].path[i],
-                                       .kind = kinds[cases->draw[d].effect],
-                                       .number = value[d]};
+            *change++ = cz_case_change(&cases->draw[d], i, value[d]);
 }
 
 /* ---- the bench ------------------------------------------------------------------------------- */

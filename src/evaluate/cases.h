@@ -35,6 +35,14 @@ int cz_cases_n_earlier(const CzProblem *problem, const char *word);
 /* Name of a scenario of the list in a case, which is counted from 0, behind earlier ones. */
 void cz_case_name(const CzCases *cases, int scenario, int number, char name[CZ_NAME_ROOM]);
 
+/* The change that sets the value of a draw at one of its paths. */
+static inline CzCaseChange cz_case_change(const CzDraw *draw, int path, double value) {
+    static const CzCaseKind kinds[] = {[CZ_DRAW_VALUE] = CZ_CASE_VALUE,
+                                       [CZ_DRAW_FACTOR] = CZ_CASE_FACTOR,
+                                       [CZ_DRAW_ADD] = CZ_CASE_ADD};
+    return (CzCaseChange){.path = draw->path[path], .kind = kinds[draw->effect], .number = value};
+}
+
 /* Number of changes of a case, and the changes that set these values (n_draw) of its draws. */
 int cz_cases_n_change(const CzCases *cases);
 void cz_case_changes(const CzCases *cases, const double *value, CzCaseChange *change);

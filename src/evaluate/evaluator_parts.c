@@ -340,6 +340,8 @@ CzStatus cz_evaluator_read_design(const CzEvaluator *evaluator, const double *x,
     else
         status = cz_no_memory(error, "the settings of a design");
     cz_arena_free(&arena);
+    if (status == CZ_OK && !cz_problem_take_targets(*problem, evaluator->problem))
+        status = cz_no_memory(error, "the variables of a design");
     return status;
 }
 

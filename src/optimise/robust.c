@@ -29,7 +29,6 @@ typedef struct Robust {
     const CzEvaluatorOptions *evaluator_options;
     CzOptimiseOptions options; /* settled */
     CzEvaluator *plain;        /* of the problem as written */
-    CzRobustCases cases;
     int n_variable;
     long n_trial;
     CzTrial *trial;    /* of all rounds (n_trial) */
@@ -88,7 +87,7 @@ static CzStatus build(Robust *robust, CzError *error) {
     cz_problem_free(result->problem);
     result->evaluator = NULL;
     result->problem = NULL;
-    CZ_TRY(cz_problem_read_cases(robust->problem, robust->cases.n, robust->cases.list,
+    CZ_TRY(cz_problem_read_cases(robust->problem, result->added->n, result->added->list,
                                  &result->problem, error));
     CZ_TRY(
         cz_evaluator_build(result->problem, robust->evaluator_options, &result->evaluator, error));
@@ -289,20 +288,21 @@ static bool holds(const Robust *robust) {
 static CzStatus judge(Robust *robust, CzRobustRound *round, Found *found, int *n_new,
                       CzError *error) {
     const CzUncertainty *uncertainty = &cz_problem_input(robust->problem)->uncertainty;
+    CzRobustCases *added = robust->result->added;
     CZ_TRY(sample_round(robust, found, error));
     const CzSampling *sampling = found->sampling;
     fill_round(round, sampling);
     const double limit = robust->seen > CZ_ROBUST_NEAR ? robust->seen - CZ_ROBUST_NEAR : 0;
     const bool is_held = violation_in(sampling) <= 0 && sampling->nominal.violation <= 0;
     if (!is_held || round->required_margin < limit)
-        *n_new = cz_robust_add_samples(&robust->cases, sampling, limit);
+        *n_new = cz_robust_add_samples(added, sampling, limit);
     if (is_held && uncertainty->n_envelope > 0 && !is_stopped(robust))
         CZ_TRY(challenge(robust, found->designed, &found->challenge, error));
     if (found->challenge != NULL) {
         round->n_weak = found->challenge->is_broken ? found->challenge->n_weak : 0;
-        *n_new += cz_robust_add_weak_points(&robust->cases, found->challenge);
+        *n_new += cz_robust_add_weak_points(added, found->challenge);
     }
-    if (robust->cases.arena.out_of_memory)
+    if (added->arena.out_of_memory)
         return cz_no_memory(error, "further scenarios");
     compare(robust, found);
     return CZ_OK;
@@ -428,10 +428,11 @@ CzStatus cz_optimise_robust(const CzProblem *problem, const CzEvaluatorOptions *
                      .evaluator_options = evaluator_options,
                      .options = options != NULL ? *options : cz_optimise_options_default()};
     *result = robust.result = calloc(1, sizeof **result);
-    if (*result == NULL)
-        return cz_no_memory(error, "a search");
-    const CzStatus status = run(&robust, error);
-    cz_arena_free(&robust.cases.arena);
+    if (*result != NULL)
+        (*result)->added = calloc(1, sizeof *(*result)->added);
+    const CzStatus status = *result != NULL && (*result)->added != NULL
+                                ? run(&robust, error)
+                                : cz_no_memory(error, "a search");
     cz_evaluator_free(robust.plain);
     free(robust.trial);
     free(robust.trial_x);
@@ -454,6 +455,9 @@ void cz_robust_free(CzRobust *robust) {
     cz_problem_free(robust->designed);
     cz_evaluator_free(robust->evaluator);
     cz_problem_free(robust->problem);
+    if (robust->added != NULL)
+        cz_arena_free(&robust->added->arena);
+    free(robust->added);
     free(robust->round);
     free(robust);
 }

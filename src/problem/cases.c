@@ -105,10 +105,8 @@ static bool extend_tree(CzProblem *made, const CzProblem *problem, int n_case,
     return root != NULL && put(&writer, root, "scenarios", list);
 }
 
-/* Takes the parts of a problem that further scenarios leave as they are. */
-static bool take_rest(CzProblem *made, const CzProblem *problem) {
+bool cz_problem_take_targets(CzProblem *made, const CzProblem *problem) {
     const int n_variable = problem->input.optimise.n_variables;
-    cz_problem_take_files(made, problem);
     if (problem->targets == NULL)
         return true;
     made->targets =
@@ -132,7 +130,8 @@ CzStatus cz_problem_read_cases(const CzProblem *problem, int n_case, const CzCas
         cz_problem_bind(made, &made->tree);
         status = cz_rules_check_again(made, error);
     }
-    if (status == CZ_OK && !take_rest(made, problem))
+    cz_problem_take_files(made, problem);
+    if (status == CZ_OK && !cz_problem_take_targets(made, problem))
         status = CZ_STATUS_NO_MEMORY;
     if (status == CZ_OK)
         status = cz_changes_read(made, &field, error);

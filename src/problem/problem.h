@@ -161,6 +161,10 @@ CZ_MUST_CHECK CzStatus cz_problem_read_cases(const CzProblem *problem, int n_cas
                                              const CzCase *cases, CzProblem **extended,
                                              CzError *error);
 
+/* Finds the places of the variables where they are in another reading of the same file; false
+ * without memory. */
+CZ_MUST_CHECK bool cz_problem_take_targets(CzProblem *made, const CzProblem *problem);
+
 /* ---- devices ---- */
 
 /* A device that a part or a path names, at all its places, which have one curve. Borrowed from the

@@ -5,6 +5,7 @@
 #include "base/arena.h"
 #include "base/error.h"
 #include "base/number.h"
+#include "evaluate/evaluator.h"
 #include "problem/problem.h"
 #include "report/options.h"
 
@@ -137,6 +138,8 @@ CzStatus cz_overlay_write_values(const CzReport *report, bool all, FILE *stream,
 }
 
 CzStatus cz_overlay_read_best(const CzReport *report, CzProblem **best, CzError *error) {
+    if (report->robust != NULL) /* with the scenarios that the search added */
+        return cz_evaluator_read_design(report->evaluator, report->outcome->best, best, error);
     const CzReportOptions *options = cz_report_options_of(report);
     const char *file = cz_problem_file(report->problem);
     CzArena arena = {0};

@@ -4,8 +4,7 @@
 #include "crushzone/report.h"
 
 #include "base/error.h"
-#include "evaluate/evaluator.h"
-#include "text/node.h"
+#include "optimise/robust_cases.h"
 #include "problem/problem.h"
 #include "report/challenge_files.h"
 #include "report/csv.h"
@@ -21,6 +20,7 @@
 #include "report/runs.h"
 #include "report/sample_replay.h"
 #include "report/temporary.h"
+#include "text/node.h"
 
 #include <errno.h>
 #include <string.h>
@@ -72,7 +72,8 @@ typedef enum Content {
     CHALLENGE_POINTS,
     CHALLENGE_REPORT,
     COUNTER_EXAMPLE,
-    COUNTER_EXAMPLES
+    COUNTER_EXAMPLES,
+    ADDED_SCENARIOS
 } Content;
 
 typedef struct File {
@@ -152,6 +153,17 @@ static CzStatus write_point(const Results *results, FILE *stream, CzError *error
     return cz_overlay_write_design(&report, results->folder, stream, error);
 }
 
+/* The best design of a search against scatter with the scenarios that it had in the end. */
+static void write_added(const CzRobust *robust, FILE *stream) {
+    fputs("# The best design with the scenarios that the search added: samples at the required\n"
+          "# statistics, and weak points.\n"
+          "extends: optimised.yaml\n",
+          stream);
+    cz_replay_begin_scenarios(robust->designed, stream);
+    for (int i = 0; i < robust->added->n; i++)
+        cz_replay_write_case(robust->problem, &robust->added->list[i], stream);
+}
+
 static CzStatus write_report(const Results *results, FILE *stream, CzError *error) {
     const bool is_search = results->report->outcome != NULL && results->is_top;
     CzReport report = is_search ? *results->report : results->run;
@@ -198,6 +210,9 @@ static CzStatus write_content(const Results *results, Content content, FILE *str
     case COUNTER_EXAMPLE:
     case COUNTER_EXAMPLES:
         cz_challenge_write_file(report, content == COUNTER_EXAMPLES, results->folder, stream);
+        break;
+    case ADDED_SCENARIOS:
+        write_added(report->robust, stream);
         break;
     case CHALLENGE_POINTS:
         cz_csv_write_challenge(report, stream);
@@ -365,6 +380,7 @@ static CzStatus write_challenge(CzFolder *folder, const Results *results, CzErro
 static CzStatus write_samples_of(CzFolder *folder, const Results *results, CzError *error) {
     static const File files[] = {
         {"sample.json", SAMPLE}, {"samples.csv", SAMPLES}, {"samples.html", SAMPLE_REPORT}};
+    static const File added = {"with-added-scenarios.yaml", ADDED_SCENARIOS};
     const CzRobust *robust = results->report->robust;
     const CzReport report = {.kind = CZ_REPORT_SAMPLE,
                              .options = results->report->options,
@@ -372,7 +388,10 @@ static CzStatus write_samples_of(CzFolder *folder, const Results *results, CzErr
                              .sampling = robust->sampling};
     Results of_samples = *results;
     of_samples.report = &report;
-    return write_files(folder, 3, files, &of_samples, error);
+    CZ_TRY(write_files(folder, 3, files, &of_samples, error));
+    const bool has_file = cz_report_options_of(results->report)->text == NULL;
+    return has_file && robust->added->n > 0 ? write_files(folder, 1, &added, results, error)
+                                            : CZ_OK;
 }
 
 static CzStatus write_all(CzFolder *folder, Results *results, CzError *error) {
@@ -445,10 +464,7 @@ CzStatus cz_report_write_folder(const CzReport *report, const char *folder, CzEr
         return write_folder(&results, error);
     CzProblem *best = NULL;
     CzError mistake = {0}; /* a file may have changed meanwhile: then there is no report */
-    const CzStatus read =
-        report->robust != NULL
-            ? cz_evaluator_read_design(report->evaluator, report->outcome->best, &best, &mistake)
-            : cz_overlay_read_best(report, &best, &mistake);
+    const CzStatus read = cz_overlay_read_best(report, &best, &mistake);
     results.run.kind = CZ_REPORT_RUN;
     results.run.evaluation = &report->outcome->best_evaluation;
     results.computed = read == CZ_OK ? best : NULL;

@@ -3,6 +3,7 @@
 #include "report/sample_replay.h"
 
 #include "base/number.h"
+#include "evaluate/cases.h"
 #include "evaluate/sampling.h"
 #include "report/figure.h"
 #include "report/options.h"
@@ -66,18 +67,33 @@ void cz_replay_begin_scenarios(const CzProblem *problem, FILE *stream) {
         fprintf(stream, "  - {name: %s}\n", cz_problem_scenario_name(problem, 0));
 }
 
-void cz_replay_write_scenario(const CzProblem *problem, int scenario, const char *name, int n_draw,
-                              const CzDraw *draw, const double *value, FILE *stream) {
-    static const char *const keys[] = {
-        [CZ_DRAW_VALUE] = "value", [CZ_DRAW_FACTOR] = "factor", [CZ_DRAW_ADD] = "add"};
+static void begin_scenario(const CzProblem *problem, int scenario, const char *name, FILE *stream) {
     fprintf(stream, "  - name: %s\n    like: %s\n    reserves: false\n    changes:\n", name,
             cz_problem_scenario_name(problem, scenario));
+}
+
+static void write_change(const CzCaseChange *change, FILE *stream) {
+    static const char *const keys[] = {
+        [CZ_CASE_VALUE] = "value", [CZ_CASE_FACTOR] = "factor", [CZ_CASE_ADD] = "add"};
+    char number[CZ_NUMBER_TEXT];
+    fputs("      - {path: ", stream);
+    cz_overlay_write_text(change->path, stream);
+    fprintf(stream, ", %s: %s}\n", keys[change->kind], cz_number_print(number, change->number));
+}
+
+void cz_replay_write_case(const CzProblem *problem, const CzCase *of, FILE *stream) {
+    begin_scenario(problem, of->scenario, of->name, stream);
+    for (int i = 0; i < of->n_change; i++)
+        write_change(&of->change[i], stream);
+}
+
+void cz_replay_write_scenario(const CzProblem *problem, int scenario, const char *name, int n_draw,
+                              const CzDraw *draw, const double *value, FILE *stream) {
+    begin_scenario(problem, scenario, name, stream);
     for (int d = 0; d < n_draw; d++)
         for (int i = 0; i < draw[d].n_path; i++) {
-            char number[CZ_NUMBER_TEXT];
-            fputs("      - {path: ", stream);
-            cz_overlay_write_text(draw[d].path[i], stream);
-            fprintf(stream, ", %s: %s}\n", keys[draw[d].effect], cz_number_print(number, value[d]));
+            const CzCaseChange change = cz_case_change(&draw[d], i, value[d]);
+            write_change(&change, stream);
         }
 }
 

@@ -3,6 +3,7 @@
 #define CZ_REPORT_SAMPLE_REPLAY_H
 
 #include "crushzone/report.h"
+#include "problem/problem.h"
 
 /* Whether a sample is written: it is the worst one of a check, or of all. */
 bool cz_replay_is_written(const CzSampling *sampling, int sample);
@@ -16,6 +17,9 @@ void cz_replay_name(int sample, char name[CZ_REPLAY_ROOM]);
 void cz_replay_begin_scenarios(const CzProblem *problem, FILE *stream);
 void cz_replay_write_scenario(const CzProblem *problem, int scenario, const char *name, int n_draw,
                               const CzDraw *draw, const double *value, FILE *stream);
+
+/* Writes a further scenario of a problem with the changes of a case. */
+void cz_replay_write_case(const CzProblem *problem, const CzCase *of, FILE *stream);
 
 /* Writes the scenarios of a sample as a file that extends the problem; `folder` is the final path
  * of the result folder. */

@@ -38,6 +38,14 @@ again() { # the design as a file has the same samples
     printf 'extends: whole/optimised.yaml\n' >best.yaml && exits 0 "$C" sample best.yaml -q -o alone && cut -d, -f1-5 alone/samples.csv >a.csv && cut -d, -f1-5 whole/samples.csv >b.csv && cmp a.csv b.csv
 }
 check "sampling the best design gives the same samples" again
+added() { # the scenarios of the last search, as a problem file and in the resolved problem
+    exits 0 "$C" run whole/with-added-scenarios.yaml -o added -q && exits 0 "$C" run whole/resolved.yaml -o resolved -q && cmp whole/checks.csv added/checks.csv && cmp whole/checks.csv resolved/checks.csv && grep -q collision-sample whole/checks.csv
+}
+check "the scenarios that a search added are in its files" added
+report() { # never a poorer one in its place
+    cp whole/report.html before.html && exits 2 "$C" report whole && says err.txt 'search against scatter' && cmp before.html whole/report.html && cp -r whole twice && rm twice/report.html && exits 0 "$C" optimise bar.yaml --resume twice -q && cmp before.html twice/report.html && exits 0 "$C" report whole -o best.html
+}
+check "its report is written again by resuming it" report
 few() { exits 1 "$C" optimise bar.yaml --set uncertainty.parameters.force.tolerance_percent=40 -o wide -q && json wide/outcome.json status infeasible && says out.txt 'the best design fails in samples' && exits 1 "$C" optimise bar.yaml --evaluations 3 -o short -q; }
 check "a design that fails in samples is never a success" few
 killed() { # in the first round and in a later one

@@ -105,6 +105,13 @@ static bool is_by_place(const CzCheck *check) {
             aggregate == (check->is_minimum ? CZ_AGGREGATE_MIN : CZ_AGGREGATE_MAX));
 }
 
+bool cz_check_is_activation(const CzCheck *check) {
+    const double most_scales = 10; /* of a limit on next to nothing; ours */
+    return !check->is_minimum && check->missing == NULL && is_by_place(check) &&
+           cz_metric_has_activation(check->metric.kind) &&
+           check->limit <= most_scales * check->metric.kind->scale;
+}
+
 int cz_check_n_detail(const CzCheck *check, const CzScene *scene) {
     if (check->scale == CZ_FLAG_SCALE || check->is_rule)
         return 0;
@@ -127,11 +134,26 @@ static double detail_of(const Details *details, double value) {
     return isnan(margin) ? -1 : details->required_margin - margin;
 }
 
+/* The constraint at a place, continued where the energy of an idle device is zero. */
+static double detail_at(const Details *details, const CzPlace *place) {
+    const CzCheck *check = details->check;
+    const double value = cz_metric_at(check->metric.kind, place);
+    CzActivation activation;
+    if (check->is_minimum || !cz_metric_activation_at(check->metric.kind, place, &activation))
+        return detail_of(details, value);
+    if (!cz_check_is_activation(check))
+        return detail_of(details, value > 0 ? value : -activation.distance * activation.size);
+    const double most =
+        check->limit - details->required_margin * fmax(fabs(check->limit), check->scale);
+    if (most < 0) /* not even zero satisfies it */
+        return detail_of(details, value);
+    return value > most ? (value - most) / activation.size : -activation.distance;
+}
+
 static void add_detail(const CzPlace *place, void *data) {
     Details *details = data;
-    const CzMetricKind *kind = details->check->metric.kind;
     if (details->n < details->room)
-        details->constraint[details->n++] = detail_of(details, cz_metric_at(kind, place));
+        details->constraint[details->n++] = detail_at(details, place);
 }
 
 int cz_check_details(const CzCheck *check, const CzSubject *subject, double required_margin,

@@ -72,7 +72,13 @@ double cz_check_constraint(const CzCheckResult *result, double required_margin);
 
 /* A check place by place. n_detail returns the number of its places in a scene, 0 for a yes or no,
  * 1 for a sum or mean; details writes as many constraints, -1 where the check does not apply, and
- * returns their number. */
+ * returns their number.
+ *
+ * An energy that is zero before an activation (activation.h) is continued below zero, where a limit
+ * allows some of it, by the energy that is missing to it. Where a limit allows next to none, the
+ * detail is the distance to the activation instead, and the excess above the limit as a share of
+ * the same size; is_activation returns whether it is. Such a distance is not a margin. */
+bool cz_check_is_activation(const CzCheck *check);
 int cz_check_n_detail(const CzCheck *check, const CzScene *scene);
 int cz_check_details(const CzCheck *check, const CzSubject *subject, double required_margin,
                      double *detail);

@@ -133,6 +133,35 @@ double cz_plastic_force(const CzEnd *end, CzElementKind kind, double rate) {
     return 0;
 }
 
+/* Force at which stages or a curve begin to crush; 0 without any. */
+static double first_force(const CzStage *stages, int n_stages, const CzTable *curve) {
+    if (n_stages > 0)
+        return stages[0].force;
+    for (int i = 0; i < curve->n_point; i++)
+        if (curve->y[i] > 0)
+            return curve->y[i];
+    return 0;
+}
+
+/* The same of a device, all of them together, at a crush rate: its trigger where that is larger. */
+static double device_crushing_force(CzDevice device, double rate) {
+    const double force =
+        fmax(first_force(device.stages, device.n_stages, device.curve), *device.trigger);
+    return device.given ? device.count * force * (1 + *device.rate_factor * rate) : 0;
+}
+
+double cz_crushing_force(const CzEnd *end, CzElementKind kind, double rate) {
+    const CzAntiClimber *face = &end->anti_climber;
+    const double tube = device_crushing_force(CZ_DEVICE(&end->coupler.tube), rate);
+    const double second = device_crushing_force(CZ_DEVICE(&end->coupler.second_tube), rate);
+    if (kind == CZ_ELEMENT_END)
+        return first_force(end->stages, end->n_stages, &end->curve);
+    if (kind == CZ_ELEMENT_ANTI_CLIMBER)
+        return device_crushing_force(CZ_DEVICE(face), rate) *
+               (1 + face->speed_factor * rate / face->speed_reference);
+    return tube > 0 && second > 0 ? fmin(tube, second) : fmax(tube, second);
+}
+
 double cz_tube_over_shear_off(const CzEnd *end, double rate) {
     const CzCoupler *coupler = &end->coupler;
     if (!coupler->given || !coupler->shear_off.given)

@@ -9,6 +9,10 @@
  * parts crushing at `rate` [m/s]; 0 when it is absent [N]. */
 double cz_plastic_force(const CzEnd *end, CzElementKind kind, double rate);
 
+/* Force at which the tubes of a coupler, an anti-climber or an end begin to crush, likewise; 0 when
+ * they do not [N]. */
+double cz_crushing_force(const CzEnd *end, CzElementKind kind, double rate);
+
 /* Each of these is a ratio of at most 1, NaN when an end does not declare the values for it. */
 double cz_stroke_fit(const CzEnd *end);
 double cz_length_used(const CzEnd *end);

@@ -66,6 +66,9 @@ int cz_evaluator_n_check(const CzEvaluator *evaluator);
 void cz_evaluator_name_checks(const CzEvaluator *evaluator, const char **name,
                               const char **scenario);
 
+/* Whether each detail is the distance to an activation, which is not a margin (n_detail). */
+void cz_evaluator_mark_activations(const CzEvaluator *evaluator, bool *is_activation);
+
 /* As cz_evaluate without keeping runs, for a search: runs end as soon as their results are final,
  * and `detail` (n_point x n_detail) gets the details, NaN for designs that failed. */
 CZ_MUST_CHECK CzStatus cz_evaluator_search(const CzEvaluator *evaluator, int n_point,

@@ -114,6 +114,15 @@ static CzStatus list_constraints(CzEvaluator *evaluator, CzError *error) {
     return CZ_OK;
 }
 
+static const CzCheck *constraint_at(const CzEvaluator *evaluator, int constraint) {
+    return &evaluator->list.check[evaluator->constraint_check[constraint]];
+}
+
+static int n_detail_of(const CzEvaluator *evaluator, const CzCheck *check) {
+    return cz_check_n_detail(
+        check, check->scenario == CZ_NO_SCENARIO ? NULL : &evaluator->scene[check->scenario]);
+}
+
 /* Counts one detail per place of a constraint whose worst place counts, one for every other
  * constraint. */
 static void count_details(CzEvaluator *evaluator) {
@@ -121,12 +130,8 @@ static void count_details(CzEvaluator *evaluator) {
         evaluator->n_detail += cz_match_n_detail(&evaluator->matches.item[i]);
     if (evaluator->matches.n_item > 0)
         return; /* the details of a fit are its residuals */
-    for (int j = 0; j < evaluator->list.n_constraint; j++) {
-        const CzCheck *check = &evaluator->list.check[evaluator->constraint_check[j]];
-        const CzScene *scene =
-            check->scenario == CZ_NO_SCENARIO ? NULL : &evaluator->scene[check->scenario];
-        evaluator->n_detail += cz_check_n_detail(check, scene);
-    }
+    for (int j = 0; j < evaluator->list.n_constraint; j++)
+        evaluator->n_detail += n_detail_of(evaluator, constraint_at(evaluator, j));
 }
 
 static CzStatus build_objective(CzEvaluator *evaluator, const CzAim *aim, CzError *error) {
@@ -265,6 +270,18 @@ void cz_evaluator_name_checks(const CzEvaluator *evaluator, const char **name,
 
 int cz_evaluator_n_detail(const CzEvaluator *evaluator) {
     return evaluator->n_detail;
+}
+
+void cz_evaluator_mark_activations(const CzEvaluator *evaluator, bool *is_activation) {
+    int n = 0;
+    if (evaluator->matches.n_item > 0)
+        return; /* residuals */
+    for (int j = 0; j < evaluator->list.n_constraint; j++) {
+        const CzCheck *check = constraint_at(evaluator, j);
+        const bool is_marked = cz_check_is_activation(check);
+        for (int k = n_detail_of(evaluator, check); k > 0; k--)
+            is_activation[n++] = is_marked;
+    }
 }
 
 CzConstraintKind cz_evaluator_constraint_kind(const CzEvaluator *evaluator, int constraint) {

@@ -10,6 +10,7 @@
 #ifndef CZ_EVALUATE_METRIC_H
 #define CZ_EVALUATE_METRIC_H
 
+#include "evaluate/activation.h"
 #include "evaluate/place.h"
 #include "evaluate/results.h"
 
@@ -72,6 +73,12 @@ CzMetricValue cz_metric_value(const CzMetric *metric, const CzSubject *subject, 
 double cz_metric_at(const CzMetricKind *kind, const CzPlace *place);
 /* Time at which the value was reached at a place [s]: begin and end, NaN when it is not stored. */
 void cz_metric_time_window(const CzMetricKind *kind, const CzPlace *place, double when[2]);
+
+/* Whether a metric is an energy that is zero before an activation; the activation at a place, its
+ * size in the metric's unit, false where there is none. */
+bool cz_metric_has_activation(const CzMetricKind *kind);
+bool cz_metric_activation_at(const CzMetricKind *kind, const CzPlace *place,
+                             CzActivation *activation);
 
 /* Whether the selector picks any place in this scene, as written. */
 bool cz_metric_picks(const CzMetric *metric, const CzScene *scene);

@@ -293,6 +293,42 @@ const CzMetricKind *cz_metric_kind(int index) {
     return &kinds[index];
 }
 
+/* ---- activation ---- */
+
+/* The energies that are zero before an activation. */
+static const struct {
+    double (*value)(const CzPlace *place);
+    bool (*activation)(const CzPlace *place, CzActivation *activation);
+} activations[] = {
+    {judge_ELEMENT_energy_kJ, cz_activation_of_element},
+    {judge_ELEMENT_tube_energy_kJ, cz_activation_of_tubes},
+    {judge_ELEMENT_temporary_energy_kJ, cz_activation_of_temporary_space},
+    {judge_ELEMENT_survival_energy_kJ, cz_activation_of_survival_space},
+    {judge_ENERGY_survival_kJ, cz_activation_of_survival_spaces},
+};
+
+enum { N_ACTIVATION = sizeof activations / sizeof activations[0] };
+
+static int find_activation(const CzMetricKind *kind) {
+    int i = 0;
+    while (i < N_ACTIVATION && activations[i].value != kind->value)
+        i++;
+    return i;
+}
+
+bool cz_metric_has_activation(const CzMetricKind *kind) {
+    return find_activation(kind) < N_ACTIVATION;
+}
+
+bool cz_metric_activation_at(const CzMetricKind *kind, const CzPlace *place,
+                             CzActivation *activation) {
+    const int i = find_activation(kind);
+    if (i == N_ACTIVATION || !activations[i].activation(place, activation))
+        return false;
+    activation->size /= kind->unit->in_si;
+    return true;
+}
+
 /* ---- rules between values ---- */
 
 static double rule_ratio(const CzPlace *place, CzValueRule rule) {

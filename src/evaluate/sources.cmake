@@ -12,6 +12,7 @@ set(CZ_SOURCES_evaluate
     devices.c
     evaluator_parts.c
     explain.c
+    activation.c
     candidate_changes.c
     case_names.c
     cases.c

@@ -21,9 +21,11 @@ typedef struct CzFunction {
     const CzConstraintKind *kind; /* of constraints (n_constraint); NULL: all are graded; algorithms
                                      do not see constraints that are a yes or no; an invalid design
                                      is the best only while all are */
-    int n_detail;    /* constraints place by place, so without the breakpoints of the worst place; 0
-                        when there are none */
-    bool is_minimax; /* the objective is the largest constraint, up to a constant */
+    int n_detail; /* constraints place by place, so without the breakpoints of the worst place; 0
+                     when there are none */
+    const bool *is_activation; /* of details: a distance to an activation, which is no margin and so
+                                  no part of the largest constraint (n_detail); NULL: none is */
+    bool is_minimax;           /* the objective is the largest constraint, up to a constant */
     bool is_fit; /* the objective is a sum of squares, the details are its residuals, and each flag
                     is whether one of them is small enough */
 
@@ -38,6 +40,11 @@ typedef struct CzFunction {
 /* Kind of a constraint. */
 static inline CzConstraintKind cz_constraint_kind(const CzFunction *function, int constraint) {
     return function->kind != NULL ? function->kind[constraint] : CZ_CONSTRAINT_GRADED;
+}
+
+/* Whether a detail is a distance to an activation. */
+static inline bool cz_detail_is_activation(const CzFunction *function, int detail) {
+    return function->is_activation != NULL && function->is_activation[detail];
 }
 
 /* One evaluated design. */

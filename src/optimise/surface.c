@@ -41,10 +41,28 @@ static bool evaluate(CzSurface *surface, const char *phase, int n_point) {
                               surface->many_c, surface->many_d);
 }
 
+/* The largest detail so far, with detail k of this value where it counts. */
+static double counted_in(double largest, const CzSurface *surface, int k, double c) {
+    return cz_detail_is_activation(surface->search->function, k) ? largest : fmax(largest, c);
+}
+
+/* Objective of point `point` of the last evaluation: where the smallest margin is maximised, that
+ * of the details that are margins, because an energy that must be zero has a margin of -100 % at
+ * once. */
+static double objective_of(const CzSurface *surface, int point) {
+    const double *c = surface->many_d + point * surface->m;
+    double largest = -INFINITY;
+    if (!surface->search->function->is_minimax)
+        return surface->many_f[point];
+    for (int k = 0; k < surface->m; k++)
+        largest = counted_in(largest, surface, k, c[k]);
+    return isfinite(largest) ? largest : surface->many_f[point];
+}
+
 static void set_base(CzSurface *surface, long record, int point, const double *u) {
     surface->record = record;
     memcpy(surface->u, u, (size_t)surface->n * sizeof *u);
-    surface->f = surface->many_f[point];
+    surface->f = objective_of(surface, point);
     memcpy(surface->c, surface->many_d + point * surface->m, (size_t)surface->m * sizeof(double));
 }
 
@@ -173,7 +191,7 @@ double cz_surface_predict(const CzSurface *surface, const double *u, double *pen
     *penalty = 0;
     for (int k = 0; k < surface->m; k++) {
         const double c = detail_at(surface, k, u);
-        largest = fmax(largest, c);
+        largest = counted_in(largest, surface, k, c);
         *penalty += cz_search_compressed(fmax(c, 0));
     }
     return surface->search->function->is_minimax ? largest
@@ -188,7 +206,7 @@ double cz_surface_merit_at(const CzSurface *surface, const double *u, const doub
     double largest = -INFINITY, penalty = 0;
     for (int k = 0; k < surface->m; k++) {
         const double c = detail_at(surface, k, u);
-        largest = fmax(largest, c);
+        largest = counted_in(largest, surface, k, c);
         penalty += cz_search_compressed(fmax(c + (reserve != NULL ? reserve[k] : 0), 0));
     }
     const double objective = surface->search->function->is_minimax
@@ -220,7 +238,7 @@ static double least_largest(const CzSurface *surface, const double *lo, const do
             const double slope = surface->dc[k * surface->n + i];
             least += fmin(slope * (lo[i] - surface->u[i]), slope * (hi[i] - surface->u[i]));
         }
-        floor = fmax(floor, least);
+        floor = counted_in(floor, surface, k, least);
     }
     return floor;
 }
@@ -274,7 +292,7 @@ static void fill_draft(Draft *draft, const CzSurface *surface, const double *lo,
     const double floor = is_minimax ? fmin(least_largest(surface, lo, hi), 0) : 0;
     double largest = -INFINITY;
     for (int k = 0; k < surface->m; k++)
-        largest = fmax(largest, surface->c[k]);
+        largest = counted_in(largest, surface, k, surface->c[k]);
     for (int i = 0; i < surface->n; i++) {
         draft->g[i] = is_minimax ? 0 : surface->df[i] / surface->scale;
         draft->lo[i] = lo[i] - surface->u[i];
@@ -288,11 +306,12 @@ static void fill_draft(Draft *draft, const CzSurface *surface, const double *lo,
         draft->hi[n] = draft->d[n] = fmax(largest, 0) + 1;
     }
     for (int k = 0; k < surface->m; k++) {
-        if (!can_matter(surface, k, lo, hi, floor - 1e-3))
+        const bool is_margin = is_minimax && !cz_detail_is_activation(surface->search->function, k);
+        if (!can_matter(surface, k, lo, hi, (is_margin ? floor : 0) - 1e-3))
             continue;
-        if (is_minimax)
+        if (is_margin)
             add_row(draft, surface, k, 1e3, 0, 1);
-        if (!is_minimax || largest > 0)
+        if (!is_margin || largest > 0)
             add_row(draft, surface, k, price_of(surface, surface->c[k]), reserve[k], 0);
     }
 }
@@ -373,7 +392,7 @@ static double try_step(CzSurface *surface, const char *phase, const double *u) {
     const double penalty = penalty_of(surface, 0);
     const double gain =
         merit(surface, surface->f, surface->penalty) -
-        (isfinite(penalty) ? merit(surface, surface->many_f[0], penalty) : INFINITY);
+        (isfinite(penalty) ? merit(surface, objective_of(surface, 0), penalty) : INFINITY);
     if (isfinite(penalty))
         correct_all(surface, 0, u, step);
     if (gain > 0) {

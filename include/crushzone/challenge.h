@@ -82,6 +82,7 @@ typedef struct CzChallengeOptions {
     int n_run;                         /* limit of points */
     long seed;                         /* -1: that of `uncertainty:` */
     int n_job;                         /* threads; 0: one per processor */
+    const CzExecutor *executor;        /* where its tasks run; NULL: in n_job threads */
     int most_weak;                     /* limit of weak points in the result */
     const volatile sig_atomic_t *stop; /* a flag that ends the search when not 0; NULL: none */
     void (*progress)(int n_done, int n_run, void *data); /* NULL when none */

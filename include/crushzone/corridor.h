@@ -103,14 +103,15 @@ typedef struct CzCorridor {
 } CzCorridor;
 
 typedef struct CzCorridorOptions {
-    const char *part; /* name of the part, or a path such as
-                         trains.A.vehicles.A6.front.anti_climber */
-    int n_random;     /* quasi-random curves of each width; 0: the default */
-    long seed;        /* -1: that of the file, or 1 */
-    bool has_scatter; /* whether the scatter of the file is sampled */
-    int n_job;        /* threads; 0: one per processor */
-    const char *text; /* text that is read in place of the file; NULL for the file */
-    size_t n_text;    /* [byte] */
+    const char *part;           /* name of the part, or a path such as
+                                   trains.A.vehicles.A6.front.anti_climber */
+    int n_random;               /* quasi-random curves of each width; 0: the default */
+    long seed;                  /* -1: that of the file, or 1 */
+    bool has_scatter;           /* whether the scatter of the file is sampled */
+    int n_job;                  /* threads; 0: one per processor */
+    const CzExecutor *executor; /* where its tasks run; NULL: in n_job threads */
+    const char *text;           /* text that is read in place of the file; NULL for the file */
+    size_t n_text;              /* [byte] */
     const volatile sig_atomic_t *stop; /* a flag that ends the search when not 0; NULL: none */
     void (*progress)(int n_done, int n_all, void *data); /* in steps of the search; NULL: none */
     void *progress_data;

@@ -29,6 +29,7 @@
 #include "crushzone/channel.h"
 #include "crushzone/corridor.h"
 #include "crushzone/evaluate.h"
+#include "crushzone/executor.h"
 #include "crushzone/explain.h"
 #include "crushzone/fit.h"
 #include "crushzone/model.h"

@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+#include "crushzone/executor.h"
 #include "crushzone/simulate.h"
 
 CZ_BEGIN_DECLARATIONS
@@ -142,13 +143,14 @@ typedef struct CzAim {
 typedef struct CzEvaluator CzEvaluator;
 
 typedef struct CzEvaluatorOptions {
-    int n_job;               /* threads; 0: one per processor */
-    double step_factor;      /* factor on every time step; 1 for production runs */
-    CzIntegrator integrator; /* CZ_INTEGRATOR_ZHAI for production runs */
-    const char *scenario;    /* only this scenario or family; NULL for all. Checks of the others are
-                                then NOT CHECKED */
-    int first_scenario;      /* scenarios before this one, counted from 0, are left out likewise */
-    const CzAim *aim;        /* NULL: objective and constraints of the file */
+    int n_job;                  /* threads; 0: one per processor */
+    const CzExecutor *executor; /* where its tasks run; NULL: in n_job threads */
+    double step_factor;         /* factor on every time step; 1 for production runs */
+    CzIntegrator integrator;    /* CZ_INTEGRATOR_ZHAI for production runs */
+    const char *scenario; /* only this scenario or family; NULL for all. Checks of the others are
+                             then NOT CHECKED */
+    int first_scenario;   /* scenarios before this one, counted from 0, are left out likewise */
+    const CzAim *aim;     /* NULL: objective and constraints of the file */
     const CzEvaluator *beside; /* its tracks are used where they are the same, which saves their
                                   set-up; it must live longer; NULL for none */
 } CzEvaluatorOptions;

@@ -17,11 +17,12 @@ CZ_BEGIN_DECLARATIONS
 #define CZ_PARETO_MARGIN "margin"
 
 typedef struct CzParetoOptions {
-    const char *minimise[2];  /* metrics, one of them may be CZ_PARETO_MARGIN */
-    int n_point;              /* with the ends, at least 2 */
-    int n_job;                /* threads; 0: one per processor */
-    CzOptimiseOptions search; /* of each point; `start` has no meaning, `journal` is that of all
-                                 searches in their order, without earlier ones */
+    const char *minimise[2];    /* metrics, one of them may be CZ_PARETO_MARGIN */
+    int n_point;                /* with the ends, at least 2 */
+    int n_job;                  /* threads; 0: one per processor */
+    const CzExecutor *executor; /* where its tasks run; NULL: in n_job threads */
+    CzOptimiseOptions search;   /* of each point; `start` has no meaning, `journal` is that of all
+                                   searches in their order, without earlier ones */
     void (*begins)(int point, int n_point, void *data); /* before each search for a point, counted
                                                            from 0; NULL when none */
     void *begins_data;

@@ -129,9 +129,10 @@ typedef struct CzSampleOptions {
     long seed;          /* -1: that of the file */
     int shard, n_shard; /* only these samples: the shard-th of n_shard equal runs of samples */
     int n_job;          /* threads; 0: one per processor */
-    bool brief;         /* runs of samples end as soon as their results are final, as in a search */
-    const char *text;   /* text that is read in place of the file; NULL for the file */
-    size_t n_text;      /* [byte] */
+    const CzExecutor *executor; /* where its tasks run; NULL: in n_job threads */
+    bool brief;       /* runs of samples end as soon as their results are final, as in a search */
+    const char *text; /* text that is read in place of the file; NULL for the file */
+    size_t n_text;    /* [byte] */
     const volatile sig_atomic_t *stop; /* a flag that ends the sampling when not 0; NULL: none */
     void (*progress)(int n_done, int n_sample, void *data); /* NULL when none */
     CzSampleRecall recall;                                  /* NULL when none is known */

@@ -42,8 +42,9 @@ typedef struct CzSweepOptions {
     const char *const *check; /* names of checks that points are judged by; all when 0 (n_check) */
     const char *scenario;     /* this scenario or family only; NULL for all */
     int n_job;                /* threads; 0: one per processor */
-    const char *text;         /* text that is read in place of the file; NULL for the file */
-    size_t n_text;            /* [byte] */
+    const CzExecutor *executor; /* where its tasks run; NULL: in n_job threads */
+    const char *text;           /* text that is read in place of the file; NULL for the file */
+    size_t n_text;              /* [byte] */
     const volatile sig_atomic_t *stop; /* a flag that ends the sweep when not 0; NULL when none */
     void (*progress)(int n_done, int n_point, void *data); /* NULL when none */
     void *progress_data;

@@ -194,7 +194,7 @@ CzStatus cz_evaluator_build(const CzProblem *problem, const CzEvaluatorOptions *
     if (built == NULL)
         return cz_no_memory(error, "the evaluator");
     built->problem = problem;
-    built->n_job = given.n_job > 0 ? given.n_job : cz_processor_count();
+    built->executor = cz_executor_choose(given.executor, given.n_job);
     built->first_scenario = given.first_scenario;
     built->beside = given.beside;
     built->manner = (CzManner){.step_factor = given.step_factor, .integrator = given.integrator};

@@ -11,7 +11,7 @@
 struct CzEvaluator {
     CzArena arena;
     const CzProblem *problem;
-    int n_job;
+    CzExecutor executor;
     CzManner manner; /* of runs outside a search */
     CzObstacles obstacles;
     int n_scene;

@@ -118,8 +118,9 @@ static CzStatus run_round(Search *search, Candidate *candidate, int n, CzError *
     search->width = width < MOST_WIDTH ? width : MOST_WIDTH;
     search->candidate = candidate;
     search->n_candidate = n;
-    const CzStatus status = cz_tasks_run((n + search->width - 1) / search->width,
-                                         search->evaluator->n_job, run_task, search, error);
+    const CzStatus status =
+        cz_tasks_run(&search->evaluator->executor, (n + search->width - 1) / search->width,
+                     run_task, search, error);
     search->n_run += n;
     if (search->options->progress != NULL)
         search->options->progress((int)search->n_run, search->n_all,

@@ -49,15 +49,15 @@ static int by_group_and_length(const void *a, const void *b) {
     return x->scene != y->scene ? x->scene - y->scene : x->design - y->design;
 }
 
-/* Number of chunks for n runs of a model: as many as fill the lanes, a multiple of the threads, but
+/* Number of chunks for n runs of a model: as many as fill the lanes, a multiple of the places, but
  * not so many that they do not fill a block of lanes. */
-static int count_chunks(const CzModel *model, int n, bool is_single, int n_job) {
+static int count_chunks(const CzModel *model, int n, bool is_single, int n_place) {
     if (is_single)
         return n;
     const int width = cz_simulate_batch_width(model);
     const int n_block = cz_simulate_n_block(model, n);
     const int n_full = (n + width - 1) / width;
-    const int n_even = (n_full + n_job - 1) / n_job * n_job;
+    const int n_even = (n_full + n_place - 1) / n_place * n_place;
     const int most = n_block < n ? n_block : n;
     return n_even < most ? n_even : n_full > most ? n_full : most;
 }
@@ -86,7 +86,7 @@ static void cut_group(CzRunPlan *plan, int first, int end, int n_chunk) {
 }
 
 CzStatus cz_run_plan_cut(CzRunPlan *plan, const CzSimulateOptions *options, bool is_single,
-                         int n_job, CzError *error) {
+                         int n_place, CzError *error) {
     CZ_TRY(find_groups(plan, options, error));
     qsort(plan->item, (size_t)plan->n_item, sizeof *plan->item, by_group_and_length);
     plan->n_chunk = 0;
@@ -94,7 +94,7 @@ CzStatus cz_run_plan_cut(CzRunPlan *plan, const CzSimulateOptions *options, bool
         while (end < plan->n_item && plan->item[end].group == plan->item[first].group)
             end++;
         const CzModel *model = plan->item[first].model;
-        cut_group(plan, first, end, count_chunks(model, end - first, is_single, n_job));
+        cut_group(plan, first, end, count_chunks(model, end - first, is_single, n_place));
     }
     return CZ_OK;
 }

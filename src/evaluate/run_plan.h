@@ -28,10 +28,10 @@ typedef struct CzRunPlan {
 CZ_MUST_CHECK CzStatus cz_run_plan_begin(CzRunPlan *plan, int n, CzError *error);
 void cz_run_plan_free(CzRunPlan *plan);
 
-/* Sorts the items, long runs first, and cuts them into chunks for n_job threads: batches that fill
- * the lanes and take about as long as one another; single runs where `is_single` is set. Status:
- * CZ_STATUS_NO_MEMORY. */
+/* Sorts the items, long runs first, and cuts them into chunks for n_place tasks side by side:
+ * batches that fill the lanes and take about as long as one another; single runs where `is_single`
+ * is set. Status: CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_run_plan_cut(CzRunPlan *plan, const CzSimulateOptions *options,
-                                       bool is_single, int n_job, CzError *error);
+                                       bool is_single, int n_place, CzError *error);
 
 #endif

@@ -124,13 +124,13 @@ static void note_lengths(const Block *block) {
 static CzStatus run_block(Block *block, CzError *error) {
     const CzEvaluator *evaluator = block->evaluator;
     if (evaluator->design.is_fit && block->x != NULL)
-        CZ_TRY(cz_tasks_run(block->n_point, evaluator->n_job, reread, block, error));
+        CZ_TRY(cz_tasks_run(&evaluator->executor, block->n_point, reread, block, error));
     const CzSimulateOptions options = options_of(block);
     const bool is_single = block->record || options.integrator != CZ_INTEGRATOR_ZHAI;
     CZ_TRY(cz_run_plan_begin(&block->plan, block->n_point * evaluator->n_scene, error));
     list_runs(block);
-    CZ_TRY(cz_run_plan_cut(&block->plan, &options, is_single, evaluator->n_job, error));
-    CZ_TRY(cz_tasks_run(block->plan.n_chunk, evaluator->n_job, run_chunk, block, error));
+    CZ_TRY(cz_run_plan_cut(&block->plan, &options, is_single, evaluator->executor.n_place, error));
+    CZ_TRY(cz_tasks_run(&evaluator->executor, block->plan.n_chunk, run_chunk, block, error));
     note_lengths(block);
     return CZ_OK;
 }

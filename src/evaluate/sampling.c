@@ -19,7 +19,7 @@
 enum {
     FEWEST_PER_TASK = 4, /* samples, which share the set-up of the track (measured) */
     MOST_PER_TASK = 16,  /* in memory at a time (ours) */
-    TASKS_PER_JOB = 2    /* of a wave */
+    TASKS_PER_PLACE = 2  /* of a wave */
 };
 
 /* Common data of all samples. */
@@ -105,13 +105,13 @@ static bool is_stopped(const CzSampleOptions *options) {
     return options->stop != NULL && *options->stop != 0;
 }
 
-/* As many samples as fill the lanes, but not so many that a thread has none. */
-static int count_per_task(const Sampler *sampler, int n_job) {
+/* As many samples as fill the lanes, but not so many that a place has none. */
+static int count_per_task(const Sampler *sampler, int n_place) {
     const CzSamplingParts *parts = sampler->sampling->parts;
     const CzCases *cases = &parts->cases;
     const CzModel *model = parts->evaluator->model[cases->scenario[0]];
     const int n_fill = model != NULL ? cz_simulate_batch_width(model) / cases->n_scenario : 0;
-    const int n_even = (sampler->n_due + n_job - 1) / n_job;
+    const int n_even = (sampler->n_due + n_place - 1) / n_place;
     const int n = n_fill < MOST_PER_TASK ? n_fill : MOST_PER_TASK;
     const int at_most = n_even > FEWEST_PER_TASK ? n_even : FEWEST_PER_TASK;
     return n < FEWEST_PER_TASK ? FEWEST_PER_TASK : n < at_most ? n : at_most;
@@ -119,13 +119,14 @@ static int count_per_task(const Sampler *sampler, int n_job) {
 
 static CzStatus run_due(Sampler *sampler, CzError *error) {
     const CzSampleOptions *options = sampler->options;
-    const int n_job = options->n_job > 0 ? options->n_job : cz_processor_count();
-    sampler->n_per_task = count_per_task(sampler, n_job);
+    const CzExecutor executor = cz_executor_choose(options->executor, options->n_job);
+    const int n_wave = executor.n_place * TASKS_PER_PLACE;
+    sampler->n_per_task = count_per_task(sampler, executor.n_place);
     while (sampler->first < sampler->n_due && !is_stopped(options)) {
         const int left =
             (sampler->n_due - sampler->first + sampler->n_per_task - 1) / sampler->n_per_task;
-        const int n_task = left < n_job * TASKS_PER_JOB ? left : n_job * TASKS_PER_JOB;
-        CZ_TRY(cz_tasks_run(n_task, n_job, run_task, sampler, error));
+        const int n_task = left < n_wave ? left : n_wave;
+        CZ_TRY(cz_tasks_run(&executor, n_task, run_task, sampler, error));
         sampler->first += n_task * sampler->n_per_task;
         if (sampler->first > sampler->n_due)
             sampler->first = sampler->n_due;
@@ -157,6 +158,7 @@ static CzStatus run_nominal(const Sampler *sampler, CzError *error) {
     CzSampling *sampling = sampler->sampling;
     CzEvaluatorOptions options = cz_evaluator_options_default();
     options.n_job = sampler->options->n_job;
+    options.executor = sampler->options->executor;
     CZ_TRY(cz_evaluator_build(sampling->problem, &options, &sampling->parts->evaluator, error));
     sampling->parts->cases.beside = sampling->parts->evaluator;
     cz_evaluator_set_stop(sampling->parts->evaluator, sampler->options->stop);

@@ -18,7 +18,7 @@
 #include "evaluate/tasks.h"
 #include "text/units.h"
 
-enum { POINTS_PER_JOB = 4 }; /* points of a wave per job */
+enum { POINTS_PER_PLACE = 4 }; /* of a wave, for each of the tasks side by side */
 
 /* Common data of all points. */
 typedef struct Sweeping {
@@ -237,11 +237,11 @@ static bool is_stopped(const CzSweepOptions *options) {
 
 static CzStatus run_all(Sweeping *sweeping, CzError *error) {
     const CzSweepOptions *options = sweeping->options;
-    const int n_job = options->n_job > 0 ? options->n_job : cz_processor_count();
-    const int n_point = sweeping->sweep->n_point, n_wave = n_job * POINTS_PER_JOB;
+    const CzExecutor executor = cz_executor_choose(options->executor, options->n_job);
+    const int n_point = sweeping->sweep->n_point, n_wave = executor.n_place * POINTS_PER_PLACE;
     while (sweeping->first < n_point && !is_stopped(options)) {
         const int left = n_point - sweeping->first, n = left < n_wave ? left : n_wave;
-        CZ_TRY(cz_tasks_run(n, n_job, run_point, sweeping, error));
+        CZ_TRY(cz_tasks_run(&executor, n, run_point, sweeping, error));
         sweeping->first += n;
         if (options->progress != NULL)
             options->progress(sweeping->first, n_point, options->progress_data);

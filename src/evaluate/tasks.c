@@ -1,5 +1,6 @@
-/* Independent tasks on a few threads. */
+/* Batches of tasks, and the executors of this process: one after another, and threads. */
 #include "evaluate/tasks.h"
+#include "base/error.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -7,63 +8,99 @@
 
 enum { MOST_THREADS = 64 };
 
-typedef struct Queue {
-    atomic_int next;
-    int n_task;
+struct CzTasks {
+    int n;
     CzTaskFunction function;
     void *data;
+    atomic_int next; /* the first task that no thread has taken */
+    pthread_t thread[MOST_THREADS];
+    int n_thread;
     pthread_mutex_t lock; /* protects the following members */
-    int failed;           /* first task that failed; n_task when none did */
+    int failed;           /* first task that failed; n when none did */
     CzStatus status;
     CzError *error; /* NULL when not requested */
-} Queue;
+};
 
-static void note_failure(Queue *queue, int index, CzStatus status, const CzError *error) {
-    pthread_mutex_lock(&queue->lock);
-    if (index < queue->failed) {
-        queue->failed = index;
-        queue->status = status;
-        if (queue->error != NULL)
-            *queue->error = *error;
-    }
-    pthread_mutex_unlock(&queue->lock);
+int cz_tasks_n(const CzTasks *tasks) {
+    return tasks->n;
 }
+
+static void note_failure(CzTasks *tasks, int index, CzStatus status, const CzError *error) {
+    pthread_mutex_lock(&tasks->lock);
+    if (index < tasks->failed) {
+        tasks->failed = index;
+        tasks->status = status;
+        if (tasks->error != NULL)
+            *tasks->error = *error;
+    }
+    pthread_mutex_unlock(&tasks->lock);
+}
+
+void cz_task_run(CzTasks *tasks, int task) {
+    CzError error = {0};
+    const CzStatus status = tasks->function(task, tasks->data, &error);
+    if (status != CZ_OK)
+        note_failure(tasks, task, status, &error);
+}
+
+CzStatus cz_tasks_run(const CzExecutor *executor, int n_task, CzTaskFunction function, void *data,
+                      CzError *error) {
+    CzTasks tasks = {.n = n_task,
+                     .function = function,
+                     .data = data,
+                     .lock = PTHREAD_MUTEX_INITIALIZER,
+                     .failed = n_task,
+                     .status = CZ_OK,
+                     .error = error};
+    atomic_init(&tasks.next, 0);
+    CZ_TRY(executor->submit(executor, &tasks, error));
+    CZ_TRY(executor->wait(executor, &tasks, error));
+    return tasks.status;
+}
+
+/* ---- threads --------------------------------------------------------------------------------- */
 
 static void *work(void *argument) {
-    Queue *queue = argument;
-    for (;;) {
-        CzError error = {0};
-        const int index = atomic_fetch_add(&queue->next, 1);
-        if (index >= queue->n_task)
-            return NULL;
-        const CzStatus status = queue->function(index, queue->data, &error);
-        if (status != CZ_OK)
-            note_failure(queue, index, status, &error);
-    }
+    CzTasks *tasks = argument;
+    for (int task; (task = atomic_fetch_add(&tasks->next, 1)) < tasks->n;)
+        cz_task_run(tasks, task);
+    return NULL;
 }
 
-CzStatus cz_tasks_run(int n_task, int n_job, CzTaskFunction function, void *data, CzError *error) {
-    Queue queue = {.n_task = n_task,
-                   .function = function,
-                   .data = data,
-                   .lock = PTHREAD_MUTEX_INITIALIZER,
-                   .failed = n_task,
-                   .status = CZ_OK,
-                   .error = error};
-    atomic_init(&queue.next, 0);
-    pthread_t thread[MOST_THREADS];
-    int n_thread = 0;
-    const int n_wanted = (n_job < n_task ? n_job : n_task) - 1;
-    while (n_thread < n_wanted && n_thread < MOST_THREADS &&
-           pthread_create(&thread[n_thread], NULL, work, &queue) == 0)
-        n_thread++;
-    work(&queue);
-    for (int i = 0; i < n_thread; i++)
-        pthread_join(thread[i], NULL);
-    return queue.status;
+static CzStatus start_threads(const CzExecutor *executor, CzTasks *tasks, CzError *error) {
+    const int n_place = executor->n_place;
+    const int n_wanted = (n_place < tasks->n ? n_place : tasks->n) - 1;
+    (void)error;
+    while (tasks->n_thread < n_wanted && tasks->n_thread < MOST_THREADS &&
+           pthread_create(&tasks->thread[tasks->n_thread], NULL, work, tasks) == 0)
+        tasks->n_thread++;
+    return CZ_OK;
+}
+
+static CzStatus end_threads(const CzExecutor *executor, CzTasks *tasks, CzError *error) {
+    (void)executor;
+    (void)error;
+    work(tasks);
+    for (int i = 0; i < tasks->n_thread; i++)
+        pthread_join(tasks->thread[i], NULL);
+    return CZ_OK;
 }
 
 int cz_processor_count(void) {
     const long n = sysconf(_SC_NPROCESSORS_ONLN);
     return n < 1 ? 1 : (int)n;
+}
+
+CzExecutor cz_executor_threads(int n_thread) {
+    return (CzExecutor){.n_place = n_thread > 0 ? n_thread : cz_processor_count(),
+                        .submit = start_threads,
+                        .wait = end_threads};
+}
+
+CzExecutor cz_executor_none(void) {
+    return cz_executor_threads(1);
+}
+
+CzExecutor cz_executor_choose(const CzExecutor *given, int n_job) {
+    return given != NULL ? *given : cz_executor_threads(n_job);
 }

@@ -232,7 +232,7 @@ CzStatus cz_challenge(const CzProblem *problem, const double *x, const CzChallen
     made->problem = problem;
     made->parts = parts;
     parts->options = options != NULL ? *options : cz_challenge_options_default();
-    parts->options.n_job = parts->options.n_job > 0 ? parts->options.n_job : cz_processor_count();
+    parts->executor = cz_executor_choose(parts->options.executor, parts->options.n_job);
     parts->x = x;
     atomic_flag_clear(&parts->is_reporting);
     const CzStatus status = challenge_design(made, error);

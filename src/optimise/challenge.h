@@ -11,6 +11,7 @@
 typedef struct CzChallengeParts {
     CzArena arena; /* of draws and texts */
     CzChallengeOptions options;
+    CzExecutor executor;
     const double *x; /* the design; NULL for the file's own values */
     CzCases cases;
     CzCaseChecks checks;      /* the checks of the challenge */

@@ -216,6 +216,6 @@ static CzStatus run_task(int index, void *data, CzError *error) {
 
 CzStatus cz_challenge_run_batch(CzChallenge *challenge, int first, int n, CzError *error) {
     Batch batch = {.challenge = challenge, .first = first, .n = n};
-    return cz_tasks_run((n + POINTS_PER_TASK - 1) / POINTS_PER_TASK,
-                        challenge->parts->options.n_job, run_task, &batch, error);
+    return cz_tasks_run(&challenge->parts->executor, (n + POINTS_PER_TASK - 1) / POINTS_PER_TASK,
+                        run_task, &batch, error);
 }

@@ -302,7 +302,7 @@ static CzStatus run_round(CzChallenge *challenge, int n_adversary, Adversary *ad
         next += adversary[a].n;
     }
     const CzStatus status =
-        cz_tasks_run(n_adversary, challenge->parts->options.n_job, run_adversary, adversary, error);
+        cz_tasks_run(&challenge->parts->executor, n_adversary, run_adversary, adversary, error);
     for (int a = 0; a < n_adversary; a++)
         for (int k = 0; k < adversary[a].n; k++) {
             const int from = adversary[a].first + k;

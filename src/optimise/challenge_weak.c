@@ -221,7 +221,7 @@ static CzStatus confirm(Finder *finder, int first, bool lists_passing, CzError *
         run[i].pair = finder->chosen[first + i];
         finder->is_tried[run[i].pair.point] = true;
     }
-    CzStatus status = cz_tasks_run(n, challenge->parts->options.n_job, run_full, run, error);
+    CzStatus status = cz_tasks_run(&challenge->parts->executor, n, run_full, run, error);
     finder->n_chosen = first;
     for (int i = 0; i < n; i++) {
         const bool fails = run[i].judged.verdict == CZ_VERDICT_FAIL;

@@ -35,7 +35,7 @@ static CzStatus read_problem(const char *file, const CzProblemOptions *problem_o
 static CzStatus evaluate_design(CzCorridor *corridor, CzError *error) {
     CzCorridorParts *parts = corridor->parts;
     CzEvaluatorOptions options = cz_evaluator_options_default();
-    options.n_job = parts->options.n_job;
+    options.executor = &parts->executor;
     CZ_TRY(cz_evaluator_build(corridor->problem, &options, &parts->evaluator, error));
     cz_evaluator_set_stop(parts->evaluator, parts->options.stop);
     return cz_evaluate(parts->evaluator, 1, NULL, false, &corridor->design, error);
@@ -77,7 +77,7 @@ CzStatus cz_corridor(const char *file, const CzProblemOptions *problem_options,
     }
     made->parts = parts;
     parts->options = *options;
-    parts->options.n_job = options->n_job > 0 ? options->n_job : cz_processor_count();
+    parts->executor = cz_executor_choose(options->executor, options->n_job);
     const CzStatus status = find(file, problem_options, made, error);
     made->wall_s = cz_clock() - started;
     if (status == CZ_OK)

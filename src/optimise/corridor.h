@@ -9,6 +9,7 @@
 typedef struct CzCorridorParts {
     CzArena arena; /* of draws and texts */
     CzCorridorOptions options;
+    CzExecutor executor;
     CzEvaluator *evaluator; /* of the design as written */
     CzPlacedDevice device;
     int n_stage_of_piece[CZ_MOST_PIECES]; /* stage that a piece is of */

@@ -103,7 +103,7 @@ CzStatus cz_corridor_challenge(CzCorridor *corridor, const CzCorridorBox *box, i
     for (int a = 0; a < n; a++)
         round.adversary[a] = (Adversary){
             .corridor = corridor, .start = &start[a], .most = most, .curve = curve + a * most};
-    CzStatus status = cz_tasks_run(n, corridor->parts->options.n_job, run_task, &round, error);
+    CzStatus status = cz_tasks_run(&corridor->parts->executor, n, run_task, &round, error);
     for (int a = 0; a < n && status == CZ_OK; a++)
         status = cz_corridor_keep(corridor, round.adversary[a].n, round.adversary[a].curve, error);
     free(curve);

@@ -178,6 +178,6 @@ CzStatus cz_corridor_run(CzCorridor *corridor, int n, CzTriedCurve *curve, CzErr
     Batch batch = {.corridor = corridor, .n = n, .curve = curve};
     for (int k = 0; k < n; k++)
         curve[k].state = CZ_SAMPLE_NOT_RUN;
-    return cz_tasks_run((n + CZ_CURVES_AT_ONCE - 1) / CZ_CURVES_AT_ONCE,
-                        corridor->parts->options.n_job, run_task, &batch, error);
+    return cz_tasks_run(&corridor->parts->executor, (n + CZ_CURVES_AT_ONCE - 1) / CZ_CURVES_AT_ONCE,
+                        run_task, &batch, error);
 }

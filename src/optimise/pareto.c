@@ -79,6 +79,7 @@ static CzStatus build(const Front *front, int objective, double bound, CzEvaluat
                        .bound = bound};
     CzEvaluatorOptions options = cz_evaluator_options_default();
     options.n_job = front->options->n_job;
+    options.executor = front->options->executor;
     options.aim = &aim;
     return cz_evaluator_build(front->problem, &options, evaluator, error);
 }

@@ -165,12 +165,19 @@ static CzStatus search(Robust *robust, CzRobustRound *round, CzError *error) {
 
 /* ---- the judgement of a round ---------------------------------------------------------------- */
 
+/* Samples and adversary run where the search runs. */
+static void take_executor(const Robust *robust, int *n_job, const CzExecutor **executor) {
+    const CzEvaluatorOptions *options = robust->evaluator_options;
+    *n_job = options != NULL ? options->n_job : 0;
+    *executor = options != NULL ? options->executor : NULL;
+}
+
 /* Samples a design; brief runs tell what breaks it, whole ones that it holds. */
 static CzStatus sample(const Robust *robust, const CzProblem *designed, bool brief,
                        CzSampling **sampling, CzError *error) {
     CzSampleOptions options = cz_sample_options_default();
     options.brief = brief;
-    options.n_job = robust->evaluator_options != NULL ? robust->evaluator_options->n_job : 0;
+    take_executor(robust, &options.n_job, &options.executor);
     options.stop = robust->options.stop;
     show_phase(robust, "samples");
     return cz_sample_problem(designed, &options, sampling, error);
@@ -180,7 +187,7 @@ static CzStatus sample(const Robust *robust, const CzProblem *designed, bool bri
 static CzStatus challenge(const Robust *robust, const CzProblem *designed, CzChallenge **challenge,
                           CzError *error) {
     CzChallengeOptions options = cz_challenge_options_default();
-    options.n_job = robust->evaluator_options != NULL ? robust->evaluator_options->n_job : 0;
+    take_executor(robust, &options.n_job, &options.executor);
     options.stop = robust->options.stop;
     options.most_weak = CZ_ROBUST_MOST_NEW;
     show_phase(robust, "adversary");

@@ -1,3 +1,4 @@
+cz_test(test_executor unit test_executor.c small_problem.c)
 cz_test(test_evaluator unit test_evaluator.c stand_in.c small_problem.c)
 cz_test(test_benchmark unit test_benchmark.c small_problem.c)
 cz_test(test_judges unit test_judges.c stand_in.c small_problem.c)

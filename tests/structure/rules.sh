@@ -20,7 +20,7 @@ include_arrows() {
                     public["channel"] = "problem"
                     public["challenge"] = "optimise"
                     public["corridor"] = "optimise"
-                    public["benchmark"] = public["sample"] = public["sweep"] = public["explain"] = public["verify"] = "evaluate"
+                    public["executor"] = public["benchmark"] = public["sample"] = public["sweep"] = public["explain"] = public["verify"] = "evaluate"
                     public["robust"] = public["pareto"] = "optimise"
                     public["crushzone"] = "report"
                 }

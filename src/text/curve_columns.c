@@ -181,7 +181,21 @@ static bool refuse_titles(const CzCurveReading *reading, const int found[2]) {
     return false;
 }
 
-/* A file without titles: both columns are given by their numbers, with their units. */
+/* Whether a file without titles has two columns, and both requested titles end in units: then they
+ * are the titles of these columns. */
+static bool takes_names(const CzCurveReading *reading) {
+    const char *line = reading->source.line[reading->data];
+    for (int i = 0; i < 2; i++) {
+        const CzCurveColumn *column = &reading->request->column[i];
+        if (column->title == NULL || cz_curve_column_number(column) >= 0 ||
+            cz_curve_unit_of_title(column->title, NULL) == NULL)
+            return false;
+    }
+    return cz_fields_count(line, reading->separator).filled == 2;
+}
+
+/* A file without titles: both columns are given by their numbers, with their units, or the two
+ * columns of the file by titles that end in units. */
 static bool begin_without_titles(CzCurveReading *reading) {
     const CzCurveColumn *column = reading->request->column;
     const int n_line = reading->source.n_line;
@@ -191,10 +205,13 @@ static bool begin_without_titles(CzCurveReading *reading) {
         reading->data = cz_reading_next(reading, reading->data + 1);
     for (int i = 0; i < 2; i++)
         reading->index[i] = cz_curve_column_number(&column[i]);
+    reading->names_columns = reading->data < n_line && takes_names(reading);
+    for (int i = 0; i < 2 && reading->names_columns; i++)
+        reading->index[i] = i;
     if (reading->data == n_line)
         cz_mistake_at(reading->mistakes, &reading->source, 1, 1,
                       "no line of this file has two numbers; a curve is two columns of them");
-    else if (!is_by_number(reading))
+    else if (!is_by_number(reading) && !reading->names_columns)
         cz_mistake_at(reading->mistakes, &reading->source, reading->data + 1, 1,
                       "no line of titles above names the column of the %s",
                       column[reading->index[0] < 0 ? 0 : 1].name);
@@ -221,6 +238,11 @@ static Units units_of(const CzCurveReading *reading, int i) {
     if (reading->titles != NULL &&
         cz_field_take(reading->titles, reading->separator, index, &units.field))
         units.in_title = cz_curve_unit_of_title(cz_field_text(&units.field, units.title), NULL);
+    const char *named = reading->names_columns ? reading->request->column[i].title : NULL;
+    if (named != NULL && cz_curve_column_number(&reading->request->column[i]) < 0) {
+        snprintf(units.title, sizeof units.title, "%s", named);
+        units.in_title = cz_curve_unit_of_title(named, NULL);
+    }
     if (reading->units != NULL &&
         cz_field_take(reading->units, reading->separator, index, &units.below))
         units.in_row = cz_curve_unit_alone(&units.below);

@@ -37,6 +37,8 @@ typedef struct CzCurveReading {
     int first; /* line after the one that announces the separator */
     const char *titles; /* NULL if none */
     const char *units;  /* line of units; NULL if none */
+    bool names_columns; /* the requested titles are those of a file without titles, whose two
+                           columns are in this order */
     int title_line, unit_line;
     int data; /* first line of points */
     int index[2];

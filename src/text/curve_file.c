@@ -7,6 +7,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "text/curve_dyna.h"
 #include "text/curve_number.h"
 
 enum { MOST_LINES = 1000000 };
@@ -276,6 +277,8 @@ static bool read_points(CzMistakes *mistakes, CzSource *source, const char *text
     const bool has_begun = begin(arena, text, n_byte, &reading);
     source->line = reading.source.line;
     source->n_line = reading.source.n_line;
+    if (has_begun && cz_dyna_is(&reading.source))
+        return make_room(arena, reading.source.n_line, points) && cz_dyna_read(&reading);
     return has_begun && cz_reading_find_columns(&reading) && cz_reading_find_unit(&reading, 0) &&
            cz_reading_find_unit(&reading, 1) && find_decimal(&reading) &&
            make_room(arena, reading.source.n_line, points) && read_all_points(&reading);

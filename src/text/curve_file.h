@@ -1,11 +1,12 @@
 /* The one reader of curve files: two columns of numbers from files of testing machines,
- * spreadsheets and programs.
+ * spreadsheets and programs, or a curve of an LS-DYNA keyword file (curve_dyna.h).
  *
  *   lines before the titles                 skipped (a preamble), as are comments
  *   one line of titles, perhaps one of units
  *   points to the end of the file
  *
- * A file without titles is read when columns and units are given. An ambiguous file is rejected
+ * A file without titles is read when columns and units are given, as numbers or as titles that end
+ * in units. An ambiguous file is rejected
  * with both readings.
  */
 #ifndef CZ_TEXT_CURVE_FILE_H

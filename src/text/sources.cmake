@@ -1,6 +1,7 @@
 # Sources of src/text, one per line.
 set(CZ_SOURCES_text
     curve_columns.c
+    curve_dyna.c
     curve_fields.c
     curve_file.c
     curve_number.c

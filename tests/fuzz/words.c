@@ -38,6 +38,10 @@ int main(void) {
                                         "5:40:8",
                                         "1,5",
                                         "sep=;",
+                                        "*DEFINE_CURVE",
+                                        "_TITLE",
+                                        "lcid ",
+                                        "$ t_ms,force_kN",
                                         "\\xef\\xbb\\xbf"};
     for (size_t i = 0; i < sizeof other / sizeof *other; i++)
         printf("\"%s\"\n", other[i]);

@@ -59,7 +59,7 @@ _crushzone() {
         return
     fi
     case ${COMP_WORDS[1]} in
-    run) options='--output --force --json --quiet --verbose --set --scenario --time-step-ms --integrator --strict --jobs --csv-sep --csv-decimal --color --help' ;;
+    run) options='--output --force --json --quiet --verbose --set --scenario --time-step-ms --integrator --iso-mme --strict --jobs --csv-sep --csv-decimal --color --help' ;;
     check) options='--output --force --json --quiet --verbose --set --scenario --time-step-ms --integrator --jobs --csv-sep --csv-decimal --color --help' ;;
     optimise | optimize) options='--output --json --quiet --verbose --set --time-step-ms --algorithm --evaluations --seed --resume --max-time --jobs --csv-sep --csv-decimal --color --help' ;;
     sweep) options='--output --force --json --quiet --set --scenario --time-step-ms --strict --vary --metric --check --jobs --csv-sep --csv-decimal --color --help' ;;

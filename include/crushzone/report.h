@@ -41,6 +41,7 @@ typedef struct CzReportOptions {
     size_t n_text;        /* [byte] */
     const char *journal;  /* file with the journal of the search, copied into the folder; NULL when
                              there is none */
+    bool iso_mme;         /* a result folder also has the histories of each run in ISO-MME */
     bool replaces_search; /* a result folder with the result of a search may be replaced by another
                              result */
 } CzReportOptions;

@@ -135,6 +135,14 @@ static int check_folders(const CzArguments *arguments) {
 
 int cz_command_run(const CzArguments *arguments) {
     int worst = check_folders(arguments);
+    if (worst == 0 && arguments->text[CZ_OPTION_ISO_MME] != NULL) {
+        char room[4096];
+        CzError error = {0};
+        if (folder_of(arguments, arguments->operand[0], room) == NULL) {
+            cz_fail(&error, CZ_STATUS_INPUT, "--iso-mme needs a result folder: give -o DIR");
+            worst = cz_tell_error(arguments, &error);
+        }
+    }
     if (worst != 0)
         return worst;
     for (int i = 0; i < arguments->n_operand; i++) {

@@ -126,6 +126,7 @@ CzReport cz_session_report(CzSession *session, CzReportKind kind, double wall_s)
     options->n_word = session->n_word;
     options->text = session->text;
     options->n_text = session->n_text;
+    options->iso_mme = session->arguments->text[CZ_OPTION_ISO_MME] != NULL;
     options->replaces_search = session->arguments->text[CZ_OPTION_REPLACE] != NULL;
     return (CzReport){.kind = kind,
                       .options = options,

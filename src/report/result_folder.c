@@ -9,6 +9,7 @@
 #include "report/challenge_files.h"
 #include "report/csv.h"
 #include "report/folder.h"
+#include "report/iso_mme_folder.h"
 #include "report/options.h"
 #include "report/overlay.h"
 #include "report/page.h"
@@ -296,7 +297,10 @@ static CzStatus write_run(CzFolder *folder, Results *results, int i, CzError *er
                  files[k].name);
         CZ_TRY(write_file(folder, name, files[k].content, results, error));
     }
-    return CZ_OK;
+    snprintf(name, sizeof name, "%s%s", several ? scenario : "", several ? "/" : "");
+    return cz_report_options_of(results->report)->iso_mme
+               ? cz_iso_mme_write_folder(folder, &results->run, i, name, error)
+               : CZ_OK;
 }
 
 /* Writes profiles to the subfolder in which they are searched next to a problem file. */

@@ -19,6 +19,8 @@ set(CZ_SOURCES_report
     figure.c
     folder.c
     inputs_text.c
+    iso_mme.c
+    iso_mme_folder.c
     journal.c
     journal_folder.c
     json.c

@@ -8,6 +8,7 @@
 #include <strings.h>
 
 #include "text/curve_dyna.h"
+#include "text/curve_mme.h"
 #include "text/curve_number.h"
 
 enum { MOST_LINES = 1000000 };
@@ -279,6 +280,8 @@ static bool read_points(CzMistakes *mistakes, CzSource *source, const char *text
     source->n_line = reading.source.n_line;
     if (has_begun && cz_dyna_is(&reading.source))
         return make_room(arena, reading.source.n_line, points) && cz_dyna_read(&reading);
+    if (has_begun && cz_mme_is_channel(&reading.source))
+        return make_room(arena, reading.source.n_line, points) && cz_mme_read_channel(&reading);
     return has_begun && cz_reading_find_columns(&reading) && cz_reading_find_unit(&reading, 0) &&
            cz_reading_find_unit(&reading, 1) && find_decimal(&reading) &&
            make_room(arena, reading.source.n_line, points) && read_all_points(&reading);
@@ -289,6 +292,10 @@ bool cz_curve_points_read(CzSources *sources, CzMistakes *mistakes, const char *
                           CzCurvePoints *points) {
     char *text = NULL;
     size_t n_byte = 0;
+    if (cz_mme_is_test(path))
+        path = cz_mme_find_channel(sources, mistakes, path, place, request);
+    if (path == NULL)
+        return false;
     CzSource *source = cz_sources_read(sources, mistakes, path, place, &text, &n_byte);
     const bool is_read =
         source != NULL && read_points(mistakes, source, text, n_byte, request, points);
@@ -327,6 +334,11 @@ CzStatus cz_curve_titles_read(CzArena *arena, const char *path, char *separator,
     CzSources sources = {.arena = arena, .hash = CZ_HASH_START};
     char *text = NULL;
     size_t n_byte = 0;
+    if (cz_mme_is_test(path)) {
+        *separator = '\t';
+        *titles = cz_mme_titles(&sources, &mistakes, path);
+        return finish(&mistakes, path, error);
+    }
     const CzSource *source = cz_sources_read(&sources, &mistakes, path, NULL, &text, &n_byte);
     CzCurveReading reading = {.mistakes = &mistakes, .request = &any, .separator = *separator};
     if (source != NULL)

@@ -4,6 +4,7 @@ set(CZ_SOURCES_text
     curve_dyna.c
     curve_fields.c
     curve_file.c
+    curve_mme.c
     curve_number.c
     curve_title.c
     mistakes.c

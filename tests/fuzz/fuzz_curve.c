@@ -1,5 +1,6 @@
 /* Any bytes as a measured curve: for a fit, as a table of a problem, as a time history of a match,
- * and as columns to draw. The first two bytes choose how the curve is read. */
+ * as columns to draw, and as list and channel of a test in ISO-MME. The first two bytes choose how
+ * the curve is read. */
 #include "fuzz/fuzz.h"
 
 #include "crushzone/fit.h"
@@ -88,6 +89,23 @@ static void draw_curve(const char *path, unsigned choice) {
     free(title);
 }
 
+/* The bytes as the list of channels of a test, whose channels are the bytes too. */
+static void read_test(const uint8_t *data, size_t n_byte) {
+    const CzCurveColumns columns = {"time", "force", "1", "2", 0, 0};
+    CzCurve *curve = NULL;
+    CzError error = {0};
+    char **title = NULL;
+    int n = 0;
+    (void)fuzz_write_file("curve.chn", data, n_byte);
+    (void)fuzz_write_file("curve.001", data, n_byte);
+    check_refusal(cz_curve_titles("curve.mme", 0, &n, &title, &error), &error);
+    for (int i = 0; title != NULL && i < n; i++)
+        FUZZ_DEMAND(title[i] != NULL);
+    free(title);
+    check_refusal(cz_curve_read("curve.mme", &columns, &curve, &error), &error);
+    cz_curve_free(curve);
+}
+
 static void read_problem(const char *end, const char *optimise) {
     char text[1200];
     CzProblem *problem = NULL;
@@ -105,6 +123,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n_byte) {
     const char *path = fuzz_write_file("curve.csv", data + n_head, n_byte - n_head);
     fit_curve(path, choice);
     draw_curve(path, choice);
+    read_test(data + n_head, n_byte - n_head);
     read_problem("curve: {file: curve.csv, basis: dynamic}", "");
     read_problem(STAGES, MATCH);
     return 0;

@@ -16,7 +16,7 @@ problem | resolved)
 journal) copy "$SOURCE/tests/fuzz/journal.jsonl" ;;
 profile) copy "$SOURCE"/problems/profiles/*.yaml "$SOURCE"/tests/problem/*/profiles/*.yaml ;;
 curve) # the first two bytes choose the device and how the file is read
-    for file in "$SOURCE"/examples/*.csv "$SOURCE"/examples/*.k "$SOURCE"/tests/problem/good/*.csv "$SOURCE"/tests/problem/bad/*.csv; do
+    for file in "$SOURCE"/examples/*.csv "$SOURCE"/examples/*.k "$SOURCE"/tests/fuzz/channel.001 "$SOURCE"/tests/problem/good/*.csv "$SOURCE"/tests/problem/bad/*.csv; do
         for first in 0 1 2 3 11 65 129; do
             { printf "\\$(printf %03o $first)\\000" && cat "$file"; } >"$folder/$first-$(basename "$file")"
         done

@@ -3,6 +3,7 @@
 #include "report/page.h"
 #include "report/page_challenge.h"
 #include "report/page_pareto.h"
+#include "report/iso_mme_folder.h"
 #include "report/page_corridor.h"
 #include "report/page_sample.h"
 #include "report/page_sweep.h"
@@ -71,6 +72,16 @@ CzStatus cz_page_write_corridor(const CzReport *report, FILE *stream, CzError *e
 CzStatus cz_report_write_corridor(const CzCorridor *corridor, FILE *stream, CzError *error) {
     (void)corridor;
     (void)stream;
+    (void)error;
+    return CZ_OK;
+}
+
+CzStatus cz_iso_mme_write_folder(CzFolder *folder, const CzReport *report, int scenario,
+                                 const char *before, CzError *error) {
+    (void)folder;
+    (void)report;
+    (void)scenario;
+    (void)before;
     (void)error;
     return CZ_OK;
 }

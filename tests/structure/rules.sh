@@ -201,7 +201,7 @@ channels_by_text() {
         c_files src/$folder
     done | xargs grep -HnE "\"($stems)([^\" ]*_($units))?\"" | without_comments | grep -v '^src/report/drawn.def:'
     grep -rlE '(^|[^_a-z])cz_(channel|drawn)_name\(' src --include='*.c' |
-        grep -vxE 'src/(problem/(channel|rules_names)|report/(chart_draw|csv|drawn|page_data)|cli/help_topics)\.c' |
+        grep -vxE 'src/(problem/(channel|rules_names)|report/(chart_draw|csv|drawn|iso_mme|page_data)|cli/help_topics)\.c' |
         sed 's/$/ makes names of channels/'
     grep -rnE '(str(n)?(cmp|str|chr)|fnmatch)\(.*(channel|drawn)_name' src --include='*.c' | grep -v '^src/problem/channel.c:'
 }

@@ -3,7 +3,7 @@ _crushzone() {
     local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} words='' options=''
     COMPREPLY=()
     if [ "$COMP_CWORD" = 1 ]; then
-        words='run check optimise sweep sample pareto challenge corridor explain verify bench report plot compare validate show fit new schema help version'
+        words='run check optimise sweep sample merge pareto challenge corridor explain verify bench report plot compare validate show fit new schema help version'
         COMPREPLY=($(compgen -W "$words" -- "$word"))
         return
     fi
@@ -31,7 +31,6 @@ _crushzone() {
     --runs) return ;;
     --samples | -n) return ;;
     --shard) return ;;
-    --join) COMPREPLY=($(compgen -f -- "$word")); return ;;
     --part) return ;;
     --curves | -n) return ;;
     --jobs | -j) return ;;
@@ -62,8 +61,9 @@ _crushzone() {
     run) options='--output --force --json --quiet --verbose --set --scenario --time-step-ms --integrator --iso-mme --strict --jobs --csv-sep --csv-decimal --color --help' ;;
     check) options='--output --force --json --quiet --verbose --set --scenario --time-step-ms --integrator --jobs --csv-sep --csv-decimal --color --help' ;;
     optimise | optimize) options='--output --json --quiet --verbose --set --time-step-ms --algorithm --evaluations --seed --resume --max-time --jobs --csv-sep --csv-decimal --color --help' ;;
-    sweep) options='--output --force --json --quiet --set --scenario --time-step-ms --strict --vary --metric --check --jobs --csv-sep --csv-decimal --color --help' ;;
-    sample) options='--output --force --json --quiet --set --time-step-ms --seed --samples --shard --join --jobs --csv-sep --csv-decimal --color --help' ;;
+    sweep) options='--output --force --json --quiet --set --scenario --time-step-ms --strict --vary --metric --check --shard --jobs --csv-sep --csv-decimal --color --help' ;;
+    sample) options='--output --force --json --quiet --set --time-step-ms --seed --samples --shard --jobs --csv-sep --csv-decimal --color --help' ;;
+    merge) options='--output --force --json --quiet --jobs --csv-sep --csv-decimal --color --help' ;;
     pareto) options='--output --force --json --quiet --verbose --set --time-step-ms --minimise --points --algorithm --evaluations --seed --resume --max-time --jobs --csv-sep --csv-decimal --color --help' ;;
     challenge) options='--output --force --json --quiet --set --time-step-ms --seed --runs --jobs --csv-sep --csv-decimal --color --help' ;;
     corridor) options='--output --force --json --quiet --set --time-step-ms --seed --part --curves --no-scatter --jobs --csv-sep --csv-decimal --color --help' ;;
@@ -84,7 +84,7 @@ _crushzone() {
     if [[ $word == -* ]]; then
         COMPREPLY=($(compgen -W "$options" -- "$word"))
     elif [ "${COMP_WORDS[1]}" = help ]; then
-        COMPREPLY=($(compgen -W 'keys units checks verdicts profiles paths algorithms channels results events figures files exit-codes run check optimise sweep sample pareto challenge corridor explain verify bench report plot compare validate show fit new schema help version' -- "$word"))
+        COMPREPLY=($(compgen -W 'keys units checks verdicts profiles paths algorithms channels results events figures files exit-codes run check optimise sweep sample merge pareto challenge corridor explain verify bench report plot compare validate show fit new schema help version' -- "$word"))
     elif [ "${COMP_WORDS[1]}" != new ]; then
         COMPREPLY=($(compgen -f -- "$word"))
     else

@@ -40,6 +40,7 @@
 #include "crushzone/simulate.h"
 #include "crushzone/status.h"
 #include "crushzone/sample.h"
+#include "crushzone/shards.h"
 #include "crushzone/sweep.h"
 #include "crushzone/verify.h"
 

@@ -16,6 +16,7 @@
 #include "crushzone/optimise.h"
 #include "crushzone/robust.h"
 #include "crushzone/sample.h"
+#include "crushzone/shards.h"
 #include "crushzone/pareto.h"
 #include "crushzone/sweep.h"
 #include "crushzone/verify.h"
@@ -37,11 +38,14 @@ typedef struct CzReportOptions {
     const char *const *word; /* further arguments that results depend on, such as "--scenario" and
                                 its name (n_word) */
     int n_word;
-    const char *text;     /* text of a problem that was not read from a file; NULL otherwise */
-    size_t n_text;        /* [byte] */
-    const char *journal;  /* file with the journal of the search, copied into the folder; NULL when
-                             there is none */
-    bool iso_mme;         /* a result folder also has the histories of each run in ISO-MME */
+    const char *text;    /* text of a problem that was not read from a file; NULL otherwise */
+    size_t n_text;       /* [byte] */
+    const char *journal; /* file with the journal of the search, copied into the folder; NULL when
+                            there is none */
+    bool iso_mme;        /* a result folder also has the histories of each run in ISO-MME */
+    const char *const *shard_word; /* of a shard: options of the command line that results depend
+                                      on, for shard.jsonl (n_shard_word); NULL of a whole run */
+    int n_shard_word;
     bool replaces_search; /* a result folder with the result of a search may be replaced by another
                              result */
 } CzReportOptions;
@@ -134,13 +138,6 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_front(const CzPareto *pareto, FILE
  * kept. Statuses: CZ_STATUS_OUTPUT, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_folder(const CzReport *report, const char *folder,
                                                      CzError *error);
-
-/* Takes the samples of a result folder, written with the same decimal sign: of another shard, or of
- * a sampling that was interrupted. Statuses: CZ_STATUS_INPUT for a folder that cannot be read or
- * has samples of another problem or other random numbers, CZ_STATUS_NO_MEMORY. */
-CZ_MUST_CHECK CZ_API CzStatus cz_report_read_samples(const char *folder,
-                                                     const CzReportOptions *options,
-                                                     CzSampling *sampling, CzError *error);
 
 /* Writes an SVG figure of the law over its curve; its title marks a doubtful or refused law.
  * Statuses: CZ_OK, CZ_STATUS_NO_MEMORY. */

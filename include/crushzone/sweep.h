@@ -31,32 +31,12 @@ CZ_MUST_CHECK CZ_API CzStatus cz_sweep_axis_parse(const char *text, CzSweepAxis 
 /* The index-th value of an axis. */
 CZ_API double cz_sweep_axis_value(const CzSweepAxis *axis, int index);
 
-typedef struct CzSweepOptions {
-    int n_axis;
-    const CzSweepAxis *axis; /* one or two (n_axis) */
-    int n_metric;
-    const char *const
-        *metric; /* to be reported each point, such as "vehicles.bogie_lift_mm"; the largest of all
-                    places and scenarios, with ".min" at the end the smallest (n_metric) */
-    int n_check;
-    const char *const *check; /* names of checks that points are judged by; all when 0 (n_check) */
-    const char *scenario;     /* this scenario or family only; NULL for all */
-    int n_job;                /* threads; 0: one per processor */
-    const CzExecutor *executor; /* where its tasks run; NULL: in n_job threads */
-    const char *text;           /* text that is read in place of the file; NULL for the file */
-    size_t n_text;              /* [byte] */
-    const volatile sig_atomic_t *stop; /* a flag that ends the sweep when not 0; NULL when none */
-    void (*progress)(int n_done, int n_point, void *data); /* NULL when none */
-    void *progress_data;
-} CzSweepOptions;
-CZ_API CzSweepOptions cz_sweep_options_default(void);
-
 /* State of a point. */
 typedef enum CzSweepState {
     CZ_SWEEP_DONE,
     CZ_SWEEP_RUN_FAILED, /* a run failed or is incomplete */
     CZ_SWEEP_INVALID,    /* the reader refuses these values; `message` has the reason */
-    CZ_SWEEP_NOT_RUN     /* interrupted before */
+    CZ_SWEEP_NOT_RUN     /* of another shard, or interrupted before */
 } CzSweepState;
 CZ_API const char *cz_sweep_state_text(CzSweepState state);
 
@@ -87,12 +67,41 @@ typedef struct CzSweep {
     const char *metric_doc[CZ_MOST_SWEPT_METRICS];  /* what it is; static */
     int n_point;                                    /* product of the axes' lengths */
     CzSweepPoint *point;                            /* the last axis changes fastest (n_point) */
+    int shard, n_shard; /* this one, from 1, and their number: 1 and 1 without shards */
+    int begin, end;     /* its points, from 0, the last one excluded */
     int worst; /* a point whose run failed, else one that fails, else the one with the smallest
                   margin; -1 when none is done */
     bool is_interrupted;
     CzProblem *problem; /* as written, for titles and warnings */
     double wall_s;
 } CzSweep;
+
+/* Fills the points whose results are known already, such as those of other shards; they are not
+ * run. */
+typedef CzStatus (*CzSweepRecall)(CzSweep *sweep, void *data, CzError *error);
+
+typedef struct CzSweepOptions {
+    int n_axis;
+    const CzSweepAxis *axis; /* one or two (n_axis) */
+    int n_metric;
+    const char *const
+        *metric; /* to be reported each point, such as "vehicles.bogie_lift_mm"; the largest of all
+                    places and scenarios, with ".min" at the end the smallest (n_metric) */
+    int n_check;
+    const char *const *check; /* names of checks that points are judged by; all when 0 (n_check) */
+    const char *scenario;     /* this scenario or family only; NULL for all */
+    int shard, n_shard;       /* only these points: the shard-th of n_shard equal runs of points */
+    int n_job;                /* threads; 0: one per processor */
+    const CzExecutor *executor; /* where its tasks run; NULL: in n_job threads */
+    const char *text;           /* text that is read in place of the file; NULL for the file */
+    size_t n_text;              /* [byte] */
+    const volatile sig_atomic_t *stop; /* a flag that ends the sweep when not 0; NULL when none */
+    void (*progress)(int n_done, int n_point, void *data); /* NULL when none */
+    void *progress_data;
+    CzSweepRecall recall; /* NULL when no point is known */
+    void *recall_data;
+} CzSweepOptions;
+CZ_API CzSweepOptions cz_sweep_options_default(void);
 
 /* Sweeps a problem file. *sweep is created whenever CZ_OK is returned, also for an interrupted
  * sweep. Statuses: CZ_OK, CZ_STATUS_INPUT for a file, path, metric or check that is wrong at every

@@ -132,8 +132,6 @@ static CzStatus keep_option(Reader *reader, int option, const char *value) {
         arguments->minimise[arguments->n_minimise++] = value;
     else if (option == CZ_OPTION_CHECK)
         arguments->check[arguments->n_check++] = value;
-    else if (option == CZ_OPTION_JOIN)
-        arguments->join[arguments->n_join++] = value;
     return CZ_OK;
 }
 
@@ -322,6 +320,13 @@ static CzStatus check_operands(const CzArguments *arguments, CzError *error) {
         (arguments->n_vary < 1 || arguments->n_vary > CZ_MOST_AXES))
         return cz_fail(error, CZ_STATUS_INPUT,
                        "'crushzone sweep' needs --vary PATH=A:B:N once or twice");
+    if (arguments->text[CZ_OPTION_SHARD] != NULL && arguments->text[CZ_OPTION_OUTPUT] == NULL)
+        return cz_fail(error, CZ_STATUS_INPUT,
+                       "--shard needs -o DIR, the folder that 'crushzone merge' reads");
+    if (arguments->text[CZ_OPTION_SHARD] != NULL && strcmp(arguments->operand[0], "-") == 0)
+        return cz_fail(error, CZ_STATUS_INPUT,
+                       "--shard needs a problem file, which 'crushzone merge' reads again, and not "
+                       "standard input");
     if (arguments->command == CZ_COMMAND_CORRIDOR && arguments->text[CZ_OPTION_PART] == NULL)
         return cz_fail(error, CZ_STATUS_INPUT,
                        "'crushzone corridor' needs --part NAME" CZ_HELP
@@ -336,7 +341,7 @@ static CzStatus check_operands(const CzArguments *arguments, CzError *error) {
         return cz_fail(error, CZ_STATUS_INPUT,
                        "--resume takes no -o: the search goes on in its own folder");
     if (arguments->text[CZ_OPTION_JSON] != NULL && arguments->n_operand > 1 &&
-        arguments->command != CZ_COMMAND_COMPARE)
+        arguments->command != CZ_COMMAND_COMPARE && arguments->command != CZ_COMMAND_MERGE)
         return cz_fail(error, CZ_STATUS_INPUT,
                        "with --json 'crushzone %s' takes one FILE: it prints one document",
                        info->name);
@@ -356,7 +361,7 @@ CzStatus cz_arguments_read(int argc, char **argv, CzArguments *arguments, CzErro
     if (arguments->command == CZ_N_COMMAND)
         return unknown_command(argv[1], &nearest, error);
     const size_t most = (size_t)argc + 1; /* of each list */
-    const char **room = calloc(7 * most, sizeof *room);
+    const char **room = calloc(6 * most, sizeof *room);
     if (room == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the command line");
     arguments->operand = room;
@@ -364,8 +369,7 @@ CzStatus cz_arguments_read(int argc, char **argv, CzArguments *arguments, CzErro
     arguments->vary = room + 2 * most;
     arguments->metric = room + 3 * most;
     arguments->check = room + 4 * most;
-    arguments->join = room + 5 * most;
-    arguments->minimise = room + 6 * most;
+    arguments->minimise = room + 5 * most;
     Reader reader = {.argc = argc, .next = 2, .argv = argv, .arguments = arguments, .error = error};
     while (reader.next < argc)
         CZ_TRY(read_word(&reader));

@@ -54,8 +54,6 @@ typedef struct CzArguments {
     int n_minimise;
     const char **check; /* names (n_check) */
     int n_check;
-    const char **join; /* folders (n_join) */
-    int n_join;
     char time_step[64]; /* room for the setting that --time-step-ms represents */
     int n_job;          /* 0: number of processors */
     long evaluations;   /* 0: that of the file */
@@ -65,7 +63,7 @@ typedef struct CzArguments {
     long n_run;         /* 0: the default */
     long n_sample;      /* 0: that of the file */
     long n_curve;       /* 0: the default */
-    int shard, n_shard; /* 1 and 1: all samples */
+    int shard, n_shard; /* 1 and 1: all samples or points */
     int n_point;        /* 0: the default */
     int n_stage;        /* -1: as many as the curve requires */
     int basis, flip;    /* words of these options, counted from 0; -1: not given */

@@ -4,21 +4,19 @@
 #include "cli/interrupt.h"
 #include "cli/messages.h"
 #include "cli/progress.h"
-#include "cli/session.h"
+#include "cli/shard.h"
 
 #include <stdio.h>
 
 static int judge(const CzArguments *arguments, const CzSampling *sampling) {
     if (sampling->is_interrupted)
         return 128 + cz_interrupt_signal();
-    if (sampling->n_failed > 0) {
+    if (sampling->n_failed > 0)
         cz_tell(arguments, "%d samples gave no result, and count as failing", sampling->n_failed);
+    if (sampling->n_failed > 0 && sampling->n_shard == 1)
         return cz_status_exit_code(CZ_STATUS_RUN_FAILED);
-    }
-    if (cz_verdict_passes(sampling->judgement))
-        return 0;
-    /* a shard alone has no verdict, but it is complete */
-    if (sampling->judgement == CZ_VERDICT_NOT_CHECKED && sampling->n_shard > 1)
+    /* a shard is complete, and the whole is judged */
+    if (cz_verdict_passes(sampling->judgement) || sampling->n_shard > 1)
         return 0;
     return cz_status_exit_code(CZ_STATUS_VIOLATED);
 }
@@ -28,7 +26,7 @@ static int finish(CzSession *session, const CzSampling *sampling) {
     const char *folder = arguments->text[CZ_OPTION_OUTPUT];
     CzReport report = cz_session_report(session, CZ_REPORT_SAMPLE, sampling->wall_s);
     report.sampling = sampling;
-    const int code = cz_session_deliver(session, &report);
+    const int code = cz_session_deliver_shard(session, &report);
     if (code != 0)
         return code;
     cz_tell(arguments, "%d of %d samples in %.3g s%s%s", sampling->n_run, sampling->n_sample,
@@ -36,22 +34,8 @@ static int finish(CzSession *session, const CzSampling *sampling) {
     return judge(arguments, sampling);
 }
 
-/* Takes the samples of the folders to join. */
-static CzStatus recall(CzSampling *sampling, void *data, CzError *error) {
-    const CzArguments *arguments = data;
-    CzReportOptions options = cz_report_options_default();
-    options.csv_decimal = arguments->csv_decimal;
-    for (int i = 0; i < arguments->n_join; i++) {
-        const CzStatus status =
-            cz_report_read_samples(arguments->join[i], &options, sampling, error);
-        if (status != CZ_OK)
-            return status;
-    }
-    return CZ_OK;
-}
-
 static int sample_file(CzSession *session, void *data) {
-    (void)data;
+    CzShards *shards = data;
     const CzArguments *arguments = session->arguments;
     const CzProblemOptions problem_options = cz_session_problem_options(arguments);
     CzSampleOptions options = cz_sample_options_default();
@@ -65,8 +49,8 @@ static int sample_file(CzSession *session, void *data) {
     options.stop = cz_interrupt_flag();
     options.progress = cz_progress_count;
     options.progress_data = (void *)arguments;
-    options.recall = recall;
-    options.recall_data = (void *)arguments;
+    options.recall = shards != NULL ? cz_shards_fill_samples : NULL;
+    options.recall_data = shards;
     CzSampling *sampling = NULL;
     CzError error = {0};
     int code;
@@ -79,6 +63,10 @@ static int sample_file(CzSession *session, void *data) {
     return code;
 }
 
+int cz_sample_shards(const CzArguments *arguments, CzShards *shards) {
+    return cz_session_study(arguments, sample_file, shards);
+}
+
 int cz_command_sample(const CzArguments *arguments) {
-    return cz_session_study(arguments, sample_file, NULL);
+    return cz_sample_shards(arguments, NULL);
 }

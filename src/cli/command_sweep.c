@@ -4,7 +4,7 @@
 #include "cli/interrupt.h"
 #include "cli/messages.h"
 #include "cli/progress.h"
-#include "cli/session.h"
+#include "cli/shard.h"
 
 #include <stdio.h>
 
@@ -20,8 +20,10 @@ static int read_axes(const CzArguments *arguments, CzSweepAxis axis[CZ_MOST_AXES
 static int judge(const CzArguments *arguments, const CzSweep *sweep) {
     if (sweep->is_interrupted)
         return 128 + cz_interrupt_signal();
+    if (sweep->n_shard > 1) /* it is complete, and the whole is judged */
+        return 0;
     bool passes = true;
-    for (int i = 0; i < sweep->n_point; i++) {
+    for (int i = sweep->begin; i < sweep->end; i++) {
         const CzSweepPoint *point = &sweep->point[i];
         if (point->state == CZ_SWEEP_RUN_FAILED) {
             cz_tell(arguments, "a run failed or is incomplete: do not use its point for a design");
@@ -46,7 +48,7 @@ static int finish(CzSession *session, const CzSweep *sweep) {
     const char *folder = arguments->text[CZ_OPTION_OUTPUT];
     CzReport report = cz_session_report(session, CZ_REPORT_SWEEP, sweep->wall_s);
     report.sweep = sweep;
-    const int code = cz_session_deliver(session, &report);
+    const int code = cz_session_deliver_shard(session, &report);
     if (code != 0)
         return code;
     const int n_run = count_run(sweep);
@@ -62,13 +64,19 @@ static int finish(CzSession *session, const CzSweep *sweep) {
 static const char *const usual_metrics[] = {"elements.stroke_used", "interfaces.peak_force_kN",
                                             "energy.absorbers_kJ", "vehicles.max_wheel_lift_mm"};
 
+/* A sweep of the command line. */
+typedef struct Asked {
+    CzSweepAxis axis[CZ_MOST_AXES];
+    CzShards *shards; /* NULL when no point is known */
+} Asked;
+
 static int sweep_file(CzSession *session, void *data) {
-    const CzSweepAxis *axis = data;
+    const Asked *asked = data;
     const CzArguments *arguments = session->arguments;
     const CzProblemOptions problem_options = cz_session_problem_options(arguments);
     CzSweepOptions options = cz_sweep_options_default();
     options.n_axis = arguments->n_vary;
-    options.axis = axis;
+    options.axis = asked->axis;
     options.n_metric = arguments->n_metric;
     options.metric = arguments->metric;
     if (arguments->n_metric == 0 && arguments->n_vary == 1) {
@@ -78,6 +86,10 @@ static int sweep_file(CzSession *session, void *data) {
     options.n_check = arguments->n_check;
     options.check = arguments->check;
     options.scenario = arguments->text[CZ_OPTION_SCENARIO];
+    options.shard = arguments->shard;
+    options.n_shard = arguments->n_shard;
+    options.recall = asked->shards != NULL ? cz_shards_fill_sweep : NULL;
+    options.recall_data = asked->shards;
     options.n_job = arguments->n_job;
     options.text = session->text;
     options.n_text = session->n_text;
@@ -96,8 +108,12 @@ static int sweep_file(CzSession *session, void *data) {
     return code;
 }
 
+int cz_sweep_shards(const CzArguments *arguments, CzShards *shards) {
+    Asked asked = {.shards = shards};
+    const int code = read_axes(arguments, asked.axis);
+    return code != 0 ? code : cz_session_study(arguments, sweep_file, &asked);
+}
+
 int cz_command_sweep(const CzArguments *arguments) {
-    CzSweepAxis axis[CZ_MOST_AXES];
-    const int code = read_axes(arguments, axis);
-    return code != 0 ? code : cz_session_study(arguments, sweep_file, axis);
+    return cz_sweep_shards(arguments, NULL);
 }

@@ -9,6 +9,7 @@ set(CZ_SOURCES_cli
     command_fit.c
     command_corridor.c
     command_figures.c
+    command_merge.c
     command_new.c
     command_optimise.c
     command_pareto.c
@@ -28,5 +29,6 @@ set(CZ_SOURCES_cli
     resume.c
     progress.c
     session.c
+    shard.c
     share_folder.c
 )

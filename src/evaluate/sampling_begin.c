@@ -10,22 +10,8 @@
 #include "base/number.h"
 #include "base/text.h"
 #include "evaluate/draws.h"
+#include "evaluate/tasks.h"
 #include "problem/keys.h"
-
-/* The samples of a shard: equal runs of samples, some of them one longer where they differ. */
-static CzStatus cut_shard(CzSampling *sampling, const CzSampleOptions *options, CzError *error) {
-    const long long n = sampling->n_sample, of = options->n_shard;
-    if (of < 1 || options->shard < 1 || options->shard > of || of > n)
-        return cz_fail(error, CZ_STATUS_INPUT,
-                       "there is no shard %d of %d of %lld samples" CZ_HELP
-                       "shards count from 1 to their number, which is at most that of the samples",
-                       options->shard, options->n_shard, n);
-    sampling->begin = (int)((options->shard - 1) * n / of);
-    sampling->end = (int)(options->shard * n / of);
-    sampling->shard = options->shard;
-    sampling->n_shard = options->n_shard;
-    return CZ_OK;
-}
 
 static const char *words_of_judge(const CzUncertainty *uncertainty, CzArena *arena) {
     char text[120];
@@ -55,7 +41,10 @@ CzStatus cz_sampling_begin_draws(CzSampling *sampling, const CzSampleOptions *op
     sampling->judged_by = words_of_judge(uncertainty, &parts->arena);
     if (sampling->judged_by == NULL)
         return cz_no_memory(error, "a sampling");
-    CZ_TRY(cut_shard(sampling, options, error));
+    sampling->shard = options->shard;
+    sampling->n_shard = options->n_shard;
+    CZ_TRY(cz_tasks_cut(sampling->n_sample, "samples", options->shard, options->n_shard,
+                        &sampling->begin, &sampling->end, error));
     CzCases *cases = &parts->cases;
     *cases = (CzCases){
         .problem = problem, .word = "sample", .n_earlier = cz_cases_n_earlier(problem, "sample")};

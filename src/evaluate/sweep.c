@@ -168,6 +168,8 @@ static CzStatus run_point(int index, void *data, CzError *error) {
     const int i = sweeping->first + index;
     CzSweepPoint *point = &sweeping->sweep->point[i];
     CzProblem *problem = NULL;
+    if (point->state != CZ_SWEEP_NOT_RUN) /* known already */
+        return CZ_OK;
     CzStatus status = read_problem(sweeping, point, &problem, error);
     if (status == CZ_OK)
         status = evaluate(sweeping, problem, point, error);
@@ -228,6 +230,10 @@ static CzStatus prepare(Sweeping *sweeping, CzError *error) {
     if (sweep->point == NULL)
         return cz_no_memory(error, "the points");
     lay_out(sweep);
+    sweep->shard = options->shard;
+    sweep->n_shard = options->n_shard;
+    CZ_TRY(cz_tasks_cut(sweep->n_point, "points", options->shard, options->n_shard, &sweep->begin,
+                        &sweep->end, error));
     return read_problem(sweeping, NULL, &sweep->problem, error);
 }
 
@@ -238,13 +244,18 @@ static bool is_stopped(const CzSweepOptions *options) {
 static CzStatus run_all(Sweeping *sweeping, CzError *error) {
     const CzSweepOptions *options = sweeping->options;
     const CzExecutor executor = cz_executor_choose(options->executor, options->n_job);
-    const int n_point = sweeping->sweep->n_point, n_wave = executor.n_place * POINTS_PER_PLACE;
-    while (sweeping->first < n_point && !is_stopped(options)) {
-        const int left = n_point - sweeping->first, n = left < n_wave ? left : n_wave;
+    CzSweep *sweep = sweeping->sweep;
+    const int n_wave = executor.n_place * POINTS_PER_PLACE;
+    if (options->recall != NULL)
+        CZ_TRY(options->recall(sweep, options->recall_data, error));
+    sweeping->first = sweep->begin;
+    while (sweeping->first < sweep->end && !is_stopped(options)) {
+        const int left = sweep->end - sweeping->first, n = left < n_wave ? left : n_wave;
         CZ_TRY(cz_tasks_run(&executor, n, run_point, sweeping, error));
         sweeping->first += n;
         if (options->progress != NULL)
-            options->progress(sweeping->first, n_point, options->progress_data);
+            options->progress(sweeping->first - sweep->begin, sweep->end - sweep->begin,
+                              options->progress_data);
     }
     sweeping->sweep->is_interrupted = is_stopped(options);
     return CZ_OK;
@@ -270,6 +281,8 @@ static CzStatus conclude(const Sweeping *sweeping, CzError *error) {
     bool any_valid = false;
     for (int i = 0; i < sweep->n_point; i++)
         any_valid |= sweep->point[i].state != CZ_SWEEP_INVALID;
+    if (!any_valid && sweeping->first_error.status == CZ_OK) /* known from elsewhere */
+        return cz_fail(error, CZ_STATUS_INPUT, "%s", sweep->point[0].message);
     if (!any_valid && error != NULL)
         *error = sweeping->first_error;
     if (!any_valid)

@@ -8,7 +8,7 @@
 #include "text/range.h"
 
 CzSweepOptions cz_sweep_options_default(void) {
-    return (CzSweepOptions){0};
+    return (CzSweepOptions){.shard = 1, .n_shard = 1};
 }
 
 const char *cz_sweep_state_text(CzSweepState state) {

@@ -104,3 +104,16 @@ CzExecutor cz_executor_none(void) {
 CzExecutor cz_executor_choose(const CzExecutor *given, int n_job) {
     return given != NULL ? *given : cz_executor_threads(n_job);
 }
+
+CzStatus cz_tasks_cut(int n, const char *what, int shard, int n_shard, int *begin, int *end,
+                      CzError *error) {
+    const long long all = n, of = n_shard;
+    if (of < 1 || shard < 1 || shard > of || of > all)
+        return cz_fail(error, CZ_STATUS_INPUT,
+                       "there is no shard %d of %d of %d %s" CZ_HELP
+                       "shards count from 1 to their number, which is at most that of the %s",
+                       shard, n_shard, n, what, what);
+    *begin = (int)((shard - 1) * all / of);
+    *end = (int)(shard * all / of);
+    return CZ_OK;
+}

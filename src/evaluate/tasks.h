@@ -17,6 +17,11 @@ CZ_MUST_CHECK CzStatus cz_tasks_run(const CzExecutor *executor, int n_task, CzTa
 /* The executor that is given, else n_job threads. */
 CzExecutor cz_executor_choose(const CzExecutor *given, int n_job);
 
+/* Cuts n tasks, such as "samples", into shards: equal runs of tasks, some of them one longer where
+ * they differ. Status: CZ_STATUS_INPUT where there is no such shard. */
+CZ_MUST_CHECK CzStatus cz_tasks_cut(int n, const char *what, int shard, int n_shard, int *begin,
+                                    int *end, CzError *error);
+
 /* Number of processors, at least 1. */
 int cz_processor_count(void);
 

@@ -5,7 +5,6 @@
 #include "report/figure.h"
 #include "report/options.h"
 #include "report/results.h"
-#include "report/sample_rows.h"
 #include "report/sample_values.h"
 #include "report/units.h"
 
@@ -317,10 +316,10 @@ static void put_full(Table *table, double value) {
     fputs(text, table->stream);
 }
 
-/* A margin; a word where a run failed (sample_rows.h). */
+/* A margin; a word where a run failed. */
 static void put_size(Table *table, double margin) {
     if (isinf(margin))
-        put_text(table, CZ_SAMPLE_FAILED);
+        put_text(table, "failed");
     else
         put_full(table, margin);
 }
@@ -329,8 +328,8 @@ static void put_size(Table *table, double margin) {
 static void put_margin(Table *table, bool is_flag, double margin, CzVerdict verdict) {
     if (is_flag)
         put_text(table, verdict == CZ_VERDICT_NOT_CHECKED ? NULL
-                        : cz_verdict_passes(verdict)      ? CZ_SAMPLE_PASSES
-                                                          : CZ_SAMPLE_FAILS);
+                        : cz_verdict_passes(verdict)      ? "pass"
+                                                          : "fail");
     else
         put_size(table, margin);
 }
@@ -361,7 +360,8 @@ static void put_sample(Table *table, const CzSampling *sampling, int k) {
 }
 
 void cz_csv_write_samples(const CzReport *report, FILE *stream) {
-    static const char *const heads[] = {CZ_SAMPLE_HEADS};
+    static const char *const heads[] = {"sample", "state", "verdict", "beyond_validity",
+                                        "margin", "check", "scenario"};
     const CzSampling *sampling = report->sampling;
     Table table = table_of(cz_report_options_of(report), stream);
     for (size_t i = 0; i < sizeof heads / sizeof *heads; i++)

@@ -20,6 +20,7 @@
 #include "report/page_sweep.h"
 #include "report/runs.h"
 #include "report/sample_replay.h"
+#include "report/shard.h"
 #include "report/temporary.h"
 #include "text/node.h"
 
@@ -59,6 +60,7 @@ typedef enum Content {
     SAMPLE,
     SAMPLES,
     SAMPLE_REPORT,
+    SHARD,
     REPLAY,
     CORRIDOR,
     CORRIDOR_POINTS,
@@ -220,6 +222,9 @@ static CzStatus write_content(const Results *results, Content content, FILE *str
         break;
     case SAMPLES:
         cz_csv_write_samples(report, stream);
+        break;
+    case SHARD:
+        cz_shard_write(report, stream);
         break;
     case CORRIDOR_REPORT:
         return cz_page_write_corridor(report, stream, error);
@@ -409,6 +414,8 @@ static CzStatus write_all(CzFolder *folder, Results *results, CzError *error) {
                                        {"corridor.csv", CORRIDOR_POINTS},
                                        {"report.html", CORRIDOR_REPORT},
                                        {"corridor.svg", CORRIDOR_FIGURE}};
+    if (cz_shard_is(results->report))
+        CZ_TRY(write_file(folder, CZ_SHARD_FILE, SHARD, results, error));
     if (results->report->kind == CZ_REPORT_SWEEP)
         return write_files(folder, 3, of_sweep, results, error);
     if (results->report->kind == CZ_REPORT_SAMPLE)

@@ -285,7 +285,9 @@ static const CzCheckResult *check_in_run(const CzResultContext *context, const C
 
 /* ---- the table ---- */
 
-#define STORED(place)                                                                              \
+/* An array of letters and a pointer to a text differ by their address only. */
+#define STORED(place) _Generic(&(place), char ** : CZ_STORED_TEXT, default : STORED_VALUE(place))
+#define STORED_VALUE(place)                                                                        \
     _Generic((place), double: CZ_STORED_DOUBLE, double *: CZ_STORED_DOUBLE, bool: CZ_STORED_BOOL,  \
              int: CZ_STORED_INT, long: CZ_STORED_LONG, char *: CZ_STORED_LETTERS,                  \
              const char *: CZ_STORED_TEXT, default: CZ_STORED_ENUM)

@@ -23,6 +23,7 @@ set(CZ_SOURCES_report
     iso_mme_folder.c
     journal.c
     journal_folder.c
+    lines.c
     json.c
     markup.c
     options.c
@@ -56,10 +57,11 @@ set(CZ_SOURCES_report
     run_table.c
     sample_figures.c
     sample_replay.c
-    sample_rows.c
     sample_table.c
     scene.c
     energy_distribution.c
+    shard.c
+    shards.c
     single_file.c
     sweep_table.c
     table.c

@@ -59,7 +59,7 @@ void cz_sweep_begin_points(CzReportTable *table, const CzSweep *sweep, bool on_p
     cz_table_head(table, "smallest margin");
     cz_table_head(table, "where");
     cz_table_head(table, "scenario");
-    for (int i = 0; i < sweep->n_point; i++)
+    for (int i = sweep->begin; i < sweep->end; i++)
         put_point(table, sweep, &sweep->point[i]);
 }
 
@@ -129,7 +129,11 @@ static void write_worst(const CzSweep *sweep, CzTerminal *terminal) {
 void cz_sweep_write_table(const CzReport *report, CzTerminal *terminal) {
     const CzSweep *sweep = report->sweep;
     CzReportTable table;
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(sweep->problem));
+    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n", cz_problem_title(sweep->problem));
+    if (sweep->n_shard > 1)
+        cz_terminal_say(terminal, CZ_STYLE_PLAIN, "Shard %d of %d: points %d to %d of %d.\n",
+                        sweep->shard, sweep->n_shard, sweep->begin + 1, sweep->end, sweep->n_point);
+    fputc('\n', terminal->stream);
     if (sweep->n_axis == 1) {
         cz_sweep_begin_points(&table, sweep, false);
         cz_table_write_text(&table, terminal);

@@ -1,4 +1,4 @@
-# sample: its output, its exit codes, the same bytes for threads and parts, samples that are run again, and interruption.
+# sample: its output, its exit codes, the same bytes for threads, samples that are run again, and interruption.
 . "$SOURCE/tests/support/cases.sh"
 . "$SOURCE/tests/cli/cli.sh"
 
@@ -45,23 +45,6 @@ check "-n and --seed replace those of the file" options
 
 threads() { for jobs in 1 3; do exits 1 "$C" sample scatter.yaml -q -j $jobs -o jobs$jobs && same_bytes whole jobs$jobs || return 1; done; }
 check "any number of threads gives the same bytes" threads
-parts() {
-    for part in 1 2 3; do
-        code=0 && "$C" sample scatter.yaml -q --shard $part/3 -o part$part >out.txt || code=$?
-        [ "$(grep -c . part$part/samples.csv)" = 5 ] || return 1
-    done
-    exits 1 "$C" sample scatter.yaml -q --join part1 --join part2 --join part3 -o joined && same_bytes whole joined &&
-        exits 1 "$C" sample scatter.yaml -q --join part3 -o mended && same_bytes whole mended &&
-        { cat part1/samples.csv && tail -n +2 part2/samples.csv && tail -n +2 part3/samples.csv; } | cmp - whole/samples.csv
-}
-check "parts of the samples, joined, give the same bytes" parts
-german_parts() { exits 1 "$C" sample scatter.yaml -q --shard 1/2 --csv-decimal , -o german && says german/samples.csv ';0,9' && exits 1 "$C" sample scatter.yaml -q --csv-decimal , --join german -o rest && cmp rest/report.html whole/report.html; }
-check "parts with decimal commas can be joined" german_parts
-strangers() {
-    exits 2 "$C" sample scatter.yaml --join other && says err.txt 'other/samples.csv:2: its values are those of another sample' && exits 2 "$C" sample calm.yaml --join whole && says err.txt 'whole has no samples of this problem with these settings' &&
-        exits 2 "$C" sample scatter.yaml --join nowhere && says err.txt 'nowhere has no samples' && mkdir -p torn && cp whole/sample.json torn && head -c 900 whole/samples.csv >torn/samples.csv && exits 2 "$C" sample scatter.yaml --join torn && says err.txt 'torn/samples.csv:'
-}
-check "samples of another problem or seed, and torn files, are not joined" strangers
 locale() { LOCPATH=$BUILD/tests/locales LC_ALL=de_DE.UTF-8 "$C" sample scatter.yaml -q -o locale >out.txt; same_bytes whole locale; }
 check "a German locale changes no byte" locale
 
@@ -86,7 +69,7 @@ check "settings of the command line are in the files of worst samples" set_too
 
 failed() {
     sed 's/^uncertainty:/simulation: {longest_s: 6}\n&/; s/    - {name: speed.*/    - {path: simulation.longest_s, values: [0.05, 6]}/' scatter.yaml >cut.yaml && exits 3 "$C" sample cut.yaml -n 6 -o cut && says out.txt 'run failed: collision: the run of this scenario did not meet its end' &&
-        says out.txt '3 of them gave no result and count as failing' && says err.txt '3 samples gave no result' && json cut/sample.json failed 3 && json cut/sample.json failures.0.state 'run failed' && [ "$(grep -c ',run failed,' cut/samples.csv)" = 3 ] && says cut/report.html 'run failed: collision'
+        says out.txt '3 of them gave no result and count as failing' && says err.txt '3 samples gave no result' && json cut/sample.json failed 3 && json cut/sample.json failures.0.state 'run failed' && says cut/sample.json "\"message\": \"collision: the run of this scenario did not meet its end" && [ "$(grep -c ',run failed,' cut/samples.csv)" = 3 ] && says cut/report.html 'run failed: collision'
 }
 check "failed runs are failed samples, named everywhere, and end with 3" failed
 refused() { sed 's/    - {name: speed.*/    - {path: "parts.*.coupler.tube.stages[0].stroke_mm", tolerance: 400}/' scatter.yaml >refused.yaml && exits 3 "$C" sample refused.yaml -o refused && says out.txt ' invalid: ' && [ "$(grep -c ',invalid,' refused/samples.csv)" -gt 0 ]; }
@@ -107,10 +90,10 @@ END
 }
 check "a check that cannot be made is named with its reason" unjudged
 wrong() {
-    exits 2 "$C" sample two.yaml && says err.txt 'the problem has no uncertain numbers' && exits 2 "$C" sample scatter.yaml --shard 4/3 && says err.txt "'--shard 4/3' is not a part" && exits 2 "$C" sample scatter.yaml --shard 1 && exits 2 "$C" sample scatter.yaml -n 0 &&
-        exits 2 "$C" sample scatter.yaml -n 3 --shard 1/4 && says err.txt 'there is no shard 1 of 4 of 3 samples' && exits 2 "$C" sample two.yaml --json && json out.txt error.message 'the problem has no uncertain numbers'
+    exits 2 "$C" sample two.yaml && says err.txt 'the problem has no uncertain numbers' && exits 2 "$C" sample scatter.yaml -n 0 &&
+        exits 2 "$C" sample two.yaml --json && json out.txt error.message 'the problem has no uncertain numbers'
 }
-check "a file without uncertain numbers, and wrong parts, end with 2" wrong
+check "a file without uncertain numbers, and a wrong number, end with 2" wrong
 piped() { exits 0 sh -c "cat calm.yaml | '$C' sample - -n 4 -o piped" && says out.txt '4 of 4 samples pass' && [ ! -e piped/replay ]; }
 check "a problem may come from standard input" piped
 interrupted() {

@@ -1,7 +1,7 @@
 /* Lack of memory in the whole program: every request of run, check, optimise, pareto, sweep,
- * sample, explain, report, plot and compare fails once, also those of libraries and stdio. Either
- * the program reports that there is no memory, ends with exit code 5 and leaves nothing incomplete,
- * or its output equals that with enough memory to the last byte.
+ * sample, merge, explain, report, plot and compare fails once, also those of libraries and stdio.
+ * Either the program reports that there is no memory, ends with exit code 5 and leaves nothing
+ * incomplete, or its output equals that with enough memory to the last byte.
  *
  * The program runs in a process of its own each time. With an argument a command is tried at every
  * request: test_memory long. Otherwise at every n-th, so that all together take some seconds. */
@@ -84,7 +84,7 @@ typedef struct Try {
     uint64_t answer; /* of all output */
 } Try;
 
-static char work_folder[64], problem[128], sampled[128], made[128];
+static char work_folder[64], problem[128], sampled[128], made[128], shard[128], swept[128];
 
 /* FNV-1a over a text, without the parts that differ from run to run. */
 static uint64_t hash_text(uint64_t hash, const char *text, size_t n) {
@@ -211,6 +211,8 @@ static void fail_every_request(const char *line, int stride) {
         word[n_word++] = strcmp(w, "PROBLEM") == 0   ? problem
                          : strcmp(w, "SAMPLED") == 0 ? sampled
                          : strcmp(w, "MADE") == 0    ? made
+                         : strcmp(w, "SHARD") == 0   ? shard
+                         : strcmp(w, "SWEPT") == 0   ? swept
                                                      : w;
     const Try whole = attempt(n_word, word, -1);
     assert_in_range(whole.code, 0, 1);
@@ -252,6 +254,13 @@ static void sample_reports_every_lack_of_memory(void **state) {
     (void)state;
     fail_every_request("sample SAMPLED -q -j 1 -n 3 -o out", 23);
     fail_every_request("sample SAMPLED -q -j 1 -n 3 --json", 31);
+}
+
+static void merge_reports_every_lack_of_memory(void **state) {
+    (void)state;
+    fail_every_request("sample SAMPLED -q -j 1 -n 3 --shard 1/2 -o out", 61);
+    fail_every_request("merge SHARD -q -j 1 -o out", 29);
+    fail_every_request("merge SWEPT -q -j 1 -o out", 23);
 }
 
 static void corridor_reports_every_lack_of_memory(void **state) {
@@ -339,8 +348,15 @@ static int enter_work_folder(void **state) {
     snprintf(sampled, sizeof sampled, "%s/sampled.yaml", work_folder);
     write_problem();
     write_sampled();
-    char *word[] = {"crushzone", "run", problem, "-q", "-o", made};
-    return attempt(6, word, -1).code;
+    snprintf(shard, sizeof shard, "%s/shard", work_folder);
+    snprintf(swept, sizeof swept, "%s/swept", work_folder);
+    char *run[] = {"crushzone", "run", problem, "-q", "-o", made};
+    char *sample[] = {"crushzone", "sample",  sampled,   "-q",  "-n", "3",
+                      "--set",     "title=t", "--shard", "1/1", "-o", shard};
+    char *sweep[] = {"crushzone", "sweep", problem, "-q", "--vary", "trains.A.speed_km_h=14:15:2",
+                     "--shard",   "1/1",   "-o",    swept};
+    return attempt(6, run, -1).code + (attempt(12, sample, -1).code > 1) +
+           attempt(10, sweep, -1).code;
 }
 
 static int leave_work_folder(void **state) {
@@ -355,6 +371,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(report_reports_every_lack_of_memory),
         cmocka_unit_test(sweep_reports_every_lack_of_memory),
         cmocka_unit_test(sample_reports_every_lack_of_memory),
+        cmocka_unit_test(merge_reports_every_lack_of_memory),
         cmocka_unit_test(corridor_reports_every_lack_of_memory),
         cmocka_unit_test(challenge_reports_every_lack_of_memory),
         cmocka_unit_test(optimise_reports_every_lack_of_memory),

@@ -286,6 +286,8 @@ static void a_sweep_shows_the_largest_number_of_metrics(void **state) {
                      .axis = {{.path = "trains.A.speed_km_h"}},
                      .n_metric = CZ_MOST_SWEPT_METRICS,
                      .n_point = 1,
+                     .n_shard = 1,
+                     .end = 1,
                      .point = &point};
     for (int k = 0; k < CZ_MOST_SWEPT_METRICS; k++) {
         snprintf(sweep.metric[k], sizeof sweep.metric[k], "metric %d", k + 1);

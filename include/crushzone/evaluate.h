@@ -87,6 +87,18 @@ typedef struct CzMatchResult {
     bool is_history;
 } CzMatchResult;
 
+/* Value of a metric that the caller asked for, over all scenarios that were run. Texts are borrowed
+ * from the evaluator. */
+typedef struct CzValueResult {
+    const char *metric;
+    const char *unit;
+    double
+        value; /* the largest, of a metric that ends in .min the smallest one, in `unit`; NaN when
+                  it is not known, does not apply or is a total beyond the model's validity */
+    char where[CZ_WHERE_ROOM];
+    const char *scenario; /* NULL without a value */
+} CzValueResult;
+
 /* A train that limits do not judge. Texts are borrowed from the evaluator. */
 typedef struct CzNotJudged {
     const char *train, *why;
@@ -116,6 +128,8 @@ typedef struct CzEvaluation {
     const CzNotJudged *not_judged; /* obstacles, borrowed from the evaluator (n_not_judged) */
     int n_match;                   /* the last constraints belong to them */
     CzMatchResult *match;          /* of a fit (n_match) */
+    int n_value;
+    CzValueResult *value; /* as cz_evaluator_set_values lists them (n_value) */
     int n_run;
     CzRun **run; /* one per scenario when requested, else NULL */
 } CzEvaluation;
@@ -192,6 +206,19 @@ CZ_MUST_CHECK CZ_API CzStatus cz_evaluate(CzEvaluator *evaluator, int n_point, c
 typedef double (*CzObjective)(int n_scenario, const CzRunSummary *const *summary, void *data);
 CZ_API void cz_evaluator_set_objective(CzEvaluator *evaluator, const char *name, const char *unit,
                                        CzObjective objective, void *data);
+
+/* Further metrics of every later evaluation, such as "interfaces.A4-B1.peak_force_kN"; none with
+ * n_metric 0. Statuses: CZ_OK, CZ_STATUS_INPUT with the nearest name as help, and then there are
+ * none; CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_evaluator_set_values(CzEvaluator *evaluator, int n_metric,
+                                                      const char *const *metric, CzError *error);
+
+/* The only scenarios or families of every later evaluation; all of the evaluator with n_scenario 0.
+ * Checks of the others are then NOT CHECKED. Statuses: CZ_OK, CZ_STATUS_INPUT with the nearest name
+ * as help, and then all are run. */
+CZ_MUST_CHECK CZ_API CzStatus cz_evaluator_set_scenarios(CzEvaluator *evaluator, int n_scenario,
+                                                         const char *const *scenario,
+                                                         CzError *error);
 
 CZ_END_DECLARATIONS
 #endif

@@ -194,6 +194,42 @@ static CzStatus judge_matches(const CzEvaluator *evaluator, const CzVehicle *veh
     return CZ_OK;
 }
 
+/* The worst value of a metric over all scenarios. */
+static CzValueResult value_over_runs(const CzEvaluator *evaluator, const CzVehicle *vehicles,
+                                     const CzRunSummary *const *run, const CzWanted *wanted,
+                                     bool beyond_validity) {
+    const CzMetric *metric = &wanted->metric;
+    const bool smallest = metric->aggregate == CZ_AGGREGATE_MIN;
+    CzValueResult worst = {.metric = wanted->name, .unit = metric->kind->unit->text, .value = NAN};
+    for (int s = 0; s < evaluator->n_scene; s++) {
+        if (run[s] == NULL || (beyond_validity && metric->kind->is_total))
+            continue;
+        const CzSubject subject = subject_in(evaluator, vehicles, s, run);
+        const CzMetricValue value = cz_metric_value(metric, &subject, !smallest);
+        const bool is_worse = isnan(worst.value) ||
+                              (smallest ? value.value < worst.value : value.value > worst.value);
+        if (value.known != CZ_KNOWN || !is_worse)
+            continue;
+        worst.value = value.value;
+        worst.scenario = evaluator->scene[s].name;
+        memcpy(worst.where, value.where, sizeof worst.where);
+    }
+    return worst;
+}
+
+/* Values that the caller wants; NaN where a run failed. */
+static void list_values(const CzEvaluator *evaluator, const CzVehicle *vehicles,
+                        const CzRunSummary *const *run, bool failed, CzEvaluation *evaluation) {
+    for (; evaluation->n_value < evaluator->n_wanted; evaluation->n_value++) {
+        const CzWanted *wanted = &evaluator->wanted[evaluation->n_value];
+        evaluation->value[evaluation->n_value] =
+            failed ? (CzValueResult){.metric = wanted->name,
+                                     .unit = wanted->metric.kind->unit->text,
+                                     .value = NAN}
+                   : value_over_runs(evaluator, vehicles, run, wanted, evaluation->beyond_validity);
+    }
+}
+
 static CzStatus allocate(const CzEvaluator *evaluator, CzEvaluation *evaluation, CzError *error) {
     const size_t n_match = (size_t)evaluator->matches.n_item;
     const size_t n_check = (size_t)evaluator->list.n_check + n_match + 1;
@@ -202,8 +238,10 @@ static CzStatus allocate(const CzEvaluator *evaluator, CzEvaluation *evaluation,
     evaluation->constraint = malloc(n_constraint * sizeof(double));
     evaluation->constraint_check = malloc(n_constraint * sizeof *evaluation->constraint_check);
     evaluation->match = malloc((n_match + 1) * sizeof *evaluation->match);
+    evaluation->value = malloc(((size_t)evaluator->n_wanted + 1) * sizeof *evaluation->value);
     if (evaluation->check == NULL || evaluation->constraint == NULL ||
-        evaluation->constraint_check == NULL || evaluation->match == NULL)
+        evaluation->constraint_check == NULL || evaluation->match == NULL ||
+        evaluation->value == NULL)
         return cz_no_memory(error, "the checks of a design");
     return CZ_OK;
 }
@@ -245,6 +283,7 @@ CzStatus cz_compose(const CzEvaluator *evaluator, const CzVehicle *vehicles,
     const bool failed = is_refused || evaluation->failure[0] != '\0';
     if (!failed)
         set_objective(evaluator, vehicles, run, evaluation);
+    list_values(evaluator, vehicles, run, failed, evaluation);
     const bool has_objective = evaluator->own_objective != NULL ||
                                evaluator->objective.kind != NULL || evaluation->n_match > 0;
     if (failed)

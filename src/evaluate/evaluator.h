@@ -3,6 +3,7 @@
 #define CZ_EVALUATE_EVALUATOR_H
 
 #include <signal.h>
+#include <stdbool.h>
 
 #include "crushzone/evaluate.h"
 #include "problem/problem.h"
@@ -74,5 +75,14 @@ void cz_evaluator_mark_activations(const CzEvaluator *evaluator, bool *is_activa
 CZ_MUST_CHECK CzStatus cz_evaluator_search(const CzEvaluator *evaluator, int n_point,
                                            const double *x, CzEvaluation *evaluation,
                                            double *detail, CzError *error);
+
+/* Whether a metric of cz_evaluator_set_values, by its number, has a place in any scenario. */
+bool cz_evaluator_has_metric(const CzEvaluator *evaluator, int wanted);
+
+/* Finds the design x (n_variable) whose evaluation has the bits of a file with these settings
+ * "path" = number: each names the only place of a variable within its bounds, and the step of the
+ * runs and the equipment remain. False when there is none, and the file must be read with them. */
+bool cz_evaluator_take_settings(const CzEvaluator *evaluator, int n, const char *const *path,
+                                const double *number, double *x);
 
 #endif

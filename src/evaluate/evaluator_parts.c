@@ -162,7 +162,8 @@ static CzStatus build(CzEvaluator *evaluator, const CzEvaluatorOptions *options,
     CZ_TRY(cz_scenes_build(problem, arena, &evaluator->n_scene, &evaluator->scene, error));
     evaluator->n_variation = (int)cz_scenes_n_variation(evaluator->n_scene, evaluator->scene);
     evaluator->length = cz_arena_numbers(arena, (size_t)evaluator->n_scene);
-    if (evaluator->length == NULL)
+    evaluator->is_left_out = cz_arena_allocate(arena, (size_t)evaluator->n_scene, sizeof(bool));
+    if (evaluator->length == NULL || evaluator->is_left_out == NULL)
         return cz_no_memory(error, "the scenarios");
     CZ_TRY(cz_obstacles_find(problem, evaluator->n_scene, evaluator->scene, arena,
                              &evaluator->obstacles, error));
@@ -213,6 +214,7 @@ void cz_evaluator_free(CzEvaluator *evaluator) {
     for (int i = 0; i < evaluator->n_variant; i++)
         cz_variant_free(&evaluator->variant[i]);
     cz_arena_free(&evaluator->arena);
+    free(evaluator->wanted);
     free(evaluator);
 }
 

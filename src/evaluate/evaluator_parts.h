@@ -8,6 +8,12 @@
 #include "evaluate/match.h"
 #include "evaluate/variant.h"
 
+/* A metric that the caller wants of every evaluation. */
+typedef struct CzWanted {
+    CzMetric metric;
+    char name[CZ_PATH_ROOM];
+} CzWanted;
+
 struct CzEvaluator {
     CzArena arena;
     const CzProblem *problem;
@@ -18,6 +24,7 @@ struct CzEvaluator {
     CzScene *scene;            /* (n_scene) */
     const char *only;          /* the only scenario that is run; NULL for all */
     int first_scenario;        /* scenarios before this one are not run */
+    bool *is_left_out;         /* scenarios that the caller leaves out at present (n_scene) */
     const CzEvaluator *beside; /* whose tracks are used where they are the same; NULL for none */
     int n_variant;             /* one per combination of choices, 1 without any */
     CzVariant *variant;        /* (n_variant) */
@@ -39,6 +46,8 @@ struct CzEvaluator {
     const char *objective_name, *objective_unit;
     CzObjective own_objective; /* the caller's; NULL when none */
     void *own_data;
+    int n_wanted;
+    CzWanted *wanted;                  /* not of the arena (n_wanted) */
     const volatile sig_atomic_t *stop; /* a flag that ends an evaluation; NULL when none */
 };
 

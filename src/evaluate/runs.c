@@ -104,7 +104,7 @@ static void list_runs(Block *block) {
         const CzVariant *variant =
             is_reread ? &block->own[i] : &evaluator->variant[block->combination[i]];
         for (int s = 0; s < evaluator->n_scene && !block->is_refused[i]; s++)
-            if (variant->model[s] != NULL)
+            if (variant->model[s] != NULL && !evaluator->is_left_out[s])
                 block->plan.item[block->plan.n_item++] =
                     (CzRunItem){.design = i,
                                 .scene = s,
@@ -268,5 +268,6 @@ void cz_evaluation_free(CzEvaluation *evaluation) {
     free(evaluation->constraint);
     free(evaluation->constraint_check);
     free(evaluation->match);
+    free(evaluation->value);
     memset(evaluation, 0, sizeof *evaluation);
 }

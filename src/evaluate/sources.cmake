@@ -30,6 +30,7 @@ set(CZ_SOURCES_evaluate
     sampling_results.c
     sampling_statistics.c
     scene.c
+    settings.c
     sweep.c
     sweep_axis.c
     tasks.c
@@ -37,4 +38,5 @@ set(CZ_SOURCES_evaluate
     variations.c
     verdict.c
     verify.c
+    wanted.c
 )

@@ -25,7 +25,6 @@ typedef struct Sweeping {
     const char *file;
     const CzProblemOptions *problem_options;
     const CzSweepOptions *options;
-    CzMetric metric[CZ_MOST_SWEPT_METRICS];
     CzSweep *sweep;
     int first;           /* point of the wave */
     CzError first_error; /* of the first point whose problem is invalid */
@@ -59,42 +58,16 @@ static CzStatus read_problem(const Sweeping *sweeping, const CzSweepPoint *point
     return status;
 }
 
-/* Values of the metrics over all scenarios. Called with the runs of a point when all were
- * completed. */
-typedef struct Reading {
-    const Sweeping *sweeping;
-    const CzEvaluator *evaluator;
-    CzSweepPoint *point;
-} Reading;
-
-static double read_metrics(int n_scenario, const CzRunSummary *const *run, void *data) {
-    const Reading *reading = data;
-    const CzEvaluator *evaluator = reading->evaluator;
-    for (int s = 0; s < n_scenario; s++)
-        reading->point->beyond_validity |= run[s] != NULL && run[s]->beyond_validity;
-    for (int k = 0; k < reading->sweeping->options->n_metric; k++) {
-        const CzMetric *metric = &reading->sweeping->metric[k];
-        const bool smallest = metric->aggregate == CZ_AGGREGATE_MIN;
-        if (reading->point->beyond_validity && metric->kind->is_total)
-            continue;
-        for (int s = 0; s < n_scenario; s++) {
-            if (run[s] == NULL)
-                continue;
-            const CzSubject subject = cz_subject_of(
-                evaluator, cz_vehicles_in(evaluator, evaluator->vehicles, s), s, run[s]);
-            const CzMetricValue value = cz_metric_value(metric, &subject, !smallest);
-            double *worst = &reading->point->metric[k];
-            const bool is_worse =
-                isnan(*worst) || (smallest ? value.value < *worst : value.value > *worst);
-            if (value.known != CZ_KNOWN || !is_worse)
-                continue;
-            *worst = value.value;
-            snprintf(reading->point->metric_where[k], sizeof reading->point->metric_where[k],
-                     "%s%s%s", value.where, value.where[0] != '\0' ? ", " : "",
-                     evaluator->scene[s].name);
-        }
+/* Values of the metrics over all scenarios. */
+static void read_metrics(const CzEvaluation *evaluation, CzSweepPoint *point) {
+    point->beyond_validity = evaluation->beyond_validity;
+    for (int k = 0; k < evaluation->n_value; k++) {
+        const CzValueResult *value = &evaluation->value[k];
+        point->metric[k] = value->value;
+        if (value->scenario != NULL)
+            snprintf(point->metric_where[k], sizeof point->metric_where[k], "%s%s%s", value->where,
+                     value->where[0] != '\0' ? ", " : "", value->scenario);
     }
-    return 0;
 }
 
 /* Whether a check decides rather than another one: if one fails, the worst of the failed ones, else
@@ -146,15 +119,17 @@ static CzStatus evaluate(const Sweeping *sweeping, CzProblem *problem, CzSweepPo
     CzStatus status = cz_evaluator_build(problem, &options, &evaluator, error);
     if (status != CZ_OK)
         return status;
-    Reading reading = {sweeping, evaluator, point};
     cz_evaluator_set_stop(evaluator, sweeping->options->stop);
-    cz_evaluator_set_objective(evaluator, "none", "", read_metrics, &reading);
-    status = cz_evaluate(evaluator, 1, NULL, false, &evaluation, error);
+    status = cz_evaluator_set_values(evaluator, sweeping->options->n_metric,
+                                     sweeping->options->metric, error);
+    if (status == CZ_OK)
+        status = cz_evaluate(evaluator, 1, NULL, false, &evaluation, error);
     if (status == CZ_OK && evaluation.status != CZ_OK) {
         point->state = CZ_SWEEP_RUN_FAILED;
         snprintf(point->message, sizeof point->message, "%s", evaluation.failure);
     } else if (status == CZ_OK) {
         point->state = CZ_SWEEP_DONE;
+        read_metrics(&evaluation, point);
         status = judge(sweeping->options, &evaluation, point, error);
     }
     cz_evaluation_free(&evaluation);
@@ -221,10 +196,11 @@ static CzStatus prepare(Sweeping *sweeping, CzError *error) {
         sweep->n_point *= options->axis[k].n;
     }
     for (int k = 0; k < options->n_metric; k++) {
-        CZ_TRY(cz_metric_parse(options->metric[k], &sweeping->metric[k], error));
+        CzMetric metric;
+        CZ_TRY(cz_metric_parse(options->metric[k], &metric, error));
         snprintf(sweep->metric[k], sizeof sweep->metric[k], "%s", options->metric[k]);
-        sweep->metric_unit[k] = sweeping->metric[k].kind->unit->text;
-        sweep->metric_doc[k] = sweeping->metric[k].kind->doc;
+        sweep->metric_unit[k] = metric.kind->unit->text;
+        sweep->metric_doc[k] = metric.kind->doc;
     }
     sweep->point = calloc((size_t)sweep->n_point, sizeof *sweep->point);
     if (sweep->point == NULL)

@@ -307,10 +307,9 @@ static CzStatus look_at_own_design(CzModel *model, const CzVehicle *vehicles, Cz
     return CZ_OK;
 }
 
-static CzStatus build(CzModel *model, int scenario, const Beside *beside, CzError *error) {
+static CzStatus build(CzModel *model, int scenario, const CzVehicle *vehicles, const Beside *beside,
+                      CzError *error) {
     const CzInput *input = cz_problem_input(model->problem);
-    int n_vehicle;
-    const CzVehicle *vehicles = cz_problem_vehicles(model->problem, &n_vehicle);
     CZ_TRY(choose_scenario(model, input, scenario, error));
     CZ_TRY(choose_trains(model, input, error));
     CZ_TRY(place_cars(model, input, error));
@@ -330,7 +329,9 @@ CzStatus cz_model_build_beside(const CzProblem *problem, int scenario, int n, Cz
     if (*model == NULL)
         return cz_no_memory(error, "the model");
     (*model)->problem = cz_problem_in_scenario(problem, scenario);
-    const CzStatus status = build(*model, scenario, &beside, error);
+    int n_vehicle;
+    const CzVehicle *vehicles = cz_problem_vehicles((*model)->problem, &n_vehicle);
+    const CzStatus status = build(*model, scenario, vehicles, &beside, error);
     if (status != CZ_OK) {
         cz_model_free(*model);
         *model = NULL;
@@ -340,6 +341,20 @@ CzStatus cz_model_build_beside(const CzProblem *problem, int scenario, int n, Cz
 
 CzStatus cz_model_build(const CzProblem *problem, int scenario, CzModel **model, CzError *error) {
     return cz_model_build_beside(problem, scenario, 0, NULL, model, error);
+}
+
+bool cz_model_is_same_with(CzModel *model, const CzVehicle *vehicles) {
+    const CzInput *input = cz_problem_input(model->problem);
+    const Beside beside = {1, &model};
+    CzModel probe = {.problem = model->problem};
+    const int scenario = input->n_scenarios > 0 ? (int)(model->scenario - input->scenarios) : 0;
+    CzError error = {0};
+    const bool is_built = build(&probe, scenario, vehicles, &beside, &error) == CZ_OK;
+    const bool is_same = is_built && probe.time_step == model->time_step &&
+                         probe.hold == model->hold &&
+                         memcmp(&probe.has, &model->has, sizeof probe.has) == 0;
+    cz_arena_free(&probe.arena);
+    return is_same;
 }
 
 void cz_model_free(CzModel *model) {

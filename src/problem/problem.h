@@ -120,6 +120,13 @@ CZ_MUST_CHECK CzStatus cz_problem_read_again(const CzProblem *problem, int n_mor
                                              const char *const *path, const char *const *value,
                                              CzProblem **again, CzError *error);
 
+/* Reads the problem again as if the command line had these further settings "path=value" (n_set);
+ * only its profile, measured histories and further files of curves are opened. All rules are
+ * checked. As cz_problem_read_again. */
+CZ_MUST_CHECK CzStatus cz_problem_read_with(const CzProblem *problem, int n_set,
+                                            const char *const *set, CzProblem **made,
+                                            CzError *error);
+
 /* The same for a path of a change of a scenario: outside of parts every vehicle of the trains has
  * places of its own, also that of a copy. */
 CZ_MUST_CHECK CzStatus cz_problem_find_changed(const CzProblem *problem, int scenario,

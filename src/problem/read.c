@@ -47,18 +47,9 @@ static void read_changes(const CzRules *rules, CzProblem *problem) {
         cz_rule_broken(rules, field, "%s" CZ_HELP "%s", error.message, error.help);
 }
 
-static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOptions *options) {
+/* Reads the records of a tree with its settings, and everything that follows from them. */
+static void read_records(CzProblem *problem) {
     CzReader *reader = &problem->reader;
-    CzSource *first = reader->sources.first;
-    first->is_general = strstr(first->line[0], CZ_RESOLVED_MARK) != NULL;
-    problem->tree = cz_load_tree(reader, top);
-    if (problem->tree.root == NULL || reader->arena.out_of_memory)
-        return;
-    problem->setting =
-        cz_settings_gather(reader, problem->tree.root, options != NULL ? options->n_set : 0,
-                           options != NULL ? options->set : NULL, &problem->n_setting);
-    if (problem->setting == NULL)
-        return;
     cz_problem_bind(problem, &problem->tree);
     if (reader->arena.out_of_memory)
         return;
@@ -78,6 +69,20 @@ static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOpti
     read_changes(&rules, problem);
 }
 
+static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOptions *options) {
+    CzReader *reader = &problem->reader;
+    CzSource *first = reader->sources.first;
+    first->is_general = strstr(first->line[0], CZ_RESOLVED_MARK) != NULL;
+    problem->tree = cz_load_tree(reader, top);
+    if (problem->tree.root == NULL || reader->arena.out_of_memory)
+        return;
+    problem->setting =
+        cz_settings_gather(reader, problem->tree.root, options != NULL ? options->n_set : 0,
+                           options != NULL ? options->set : NULL, &problem->n_setting);
+    if (problem->setting != NULL)
+        read_records(problem);
+}
+
 /* Sorts the mistakes and reports the first one. */
 static CzStatus finish(CzProblem *problem, CzError *error) {
     CzReader *reader = &problem->reader;
@@ -95,6 +100,26 @@ CzStatus cz_problem_read(const char *path, const CzProblemOptions *options, CzPr
     if (top != NULL)
         read_tree(*problem, top, options);
     return finish(*problem, error);
+}
+
+CzStatus cz_problem_read_with(const CzProblem *problem, int n_set, const char *const *set,
+                              CzProblem **made, CzError *error) {
+    CzSetting *more = NULL;
+    *made = cz_problem_create_again(problem, n_set, &more);
+    if (*made == NULL)
+        return cz_no_memory(error, "the problem with other settings");
+    CzReader *reader = &(*made)->reader;
+    const char *folder = problem->reader.sources.first->folder;
+    (*made)->n_setting =
+        problem->n_setting + cz_settings_gather_options(reader, folder, n_set, set, more);
+    if (!reader->arena.out_of_memory)
+        read_records(*made);
+    const CzStatus status = finish(*made, error);
+    if (status == CZ_OK)
+        return CZ_OK;
+    cz_problem_free(*made);
+    *made = NULL;
+    return status;
 }
 
 CzStatus cz_problem_read_text(const char *text, size_t n_byte, const char *name, const char *folder,

@@ -60,13 +60,12 @@ static bool read_setting(CzReader *reader, const CzSource *source, int line, CzS
     return setting->path != NULL && setting->place != NULL && setting->put.value != NULL;
 }
 
-static int gather_options(CzReader *reader, int n_set, const char *const *set, CzSetting *setting) {
+int cz_settings_gather_options(CzReader *reader, const char *folder, int n_set,
+                               const char *const *set, CzSetting *setting) {
     size_t n_byte = 0;
     char *text = join_lines(n_set, set, &n_byte);
     const CzSource *source =
-        text != NULL
-            ? cz_sources_add(&reader->sources, "--set", reader->sources.first->folder, text, n_byte)
-            : NULL;
+        text != NULL ? cz_sources_add(&reader->sources, "--set", folder, text, n_byte) : NULL;
     int n_setting = 0;
     if (text == NULL)
         reader->arena.out_of_memory = true;
@@ -114,7 +113,8 @@ const CzSetting *cz_settings_gather(CzReader *reader, const CzNode *root, int n_
                        cz_node_what(entry->value));
     }
     if (n_set > 0)
-        *n_setting += gather_options(reader, n_set, set, &setting[*n_setting]);
+        *n_setting += cz_settings_gather_options(reader, reader->sources.first->folder, n_set, set,
+                                                 &setting[*n_setting]);
     return setting;
 }
 

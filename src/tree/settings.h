@@ -21,6 +21,11 @@ typedef struct CzSetting {
 const CzSetting *cz_settings_gather(CzReader *reader, const CzNode *root, int n_set,
                                     const char *const *set, int *n_setting);
 
+/* Settings of the command line alone, with paths of files relative to a folder; `setting` has room
+ * for them. Returns their number. */
+int cz_settings_gather_options(CzReader *reader, const char *folder, int n_set,
+                               const char *const *set, CzSetting *setting);
+
 /* The tree with all settings applied, except those that are late. */
 CzTree cz_settings_apply(CzReader *reader, const CzTree *tree, const CzSetting *setting,
                          int n_setting);

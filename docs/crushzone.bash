@@ -3,7 +3,7 @@ _crushzone() {
     local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} words='' options=''
     COMPREPLY=()
     if [ "$COMP_CWORD" = 1 ]; then
-        words='run check optimise sweep sample merge pareto challenge corridor explain verify bench report plot compare validate show fit new schema help version'
+        words='run check optimise sweep sample merge pareto challenge corridor explain verify bench serve report plot compare validate show fit new schema help version'
         COMPREPLY=($(compgen -W "$words" -- "$word"))
         return
     fi
@@ -70,6 +70,7 @@ _crushzone() {
     explain) options='--json --quiet --set --scenario --time-step-ms --jobs --color --help' ;;
     verify) options='--json --quiet --verbose --set --scenario --time-step-ms --jobs --color --help' ;;
     bench) options='--json --quiet --set --scenario --time-step-ms --rounds --color --help' ;;
+    serve) options='--quiet --set --scenario --time-step-ms --jobs --color --help' ;;
     report) options='--output --quiet --scenario --jobs --help' ;;
     plot) options='--quiet --set --scenario --what --at --measured --column --svg --jobs --csv-sep --csv-decimal --help' ;;
     compare) options='--output --json --quiet --scenario --jobs --color --help' ;;
@@ -84,7 +85,7 @@ _crushzone() {
     if [[ $word == -* ]]; then
         COMPREPLY=($(compgen -W "$options" -- "$word"))
     elif [ "${COMP_WORDS[1]}" = help ]; then
-        COMPREPLY=($(compgen -W 'keys units checks verdicts profiles paths algorithms channels results events figures files exit-codes run check optimise sweep sample merge pareto challenge corridor explain verify bench report plot compare validate show fit new schema help version' -- "$word"))
+        COMPREPLY=($(compgen -W 'keys units checks verdicts profiles paths algorithms channels results events figures files exit-codes run check optimise sweep sample merge pareto challenge corridor explain verify bench serve report plot compare validate show fit new schema help version' -- "$word"))
     elif [ "${COMP_WORDS[1]}" != new ]; then
         COMPREPLY=($(compgen -f -- "$word"))
     else

@@ -17,6 +17,8 @@
  *
  *   CzProblem --> cz_pareto --> CzPareto (a front of optima) --> report
  *
+ *   CzProblem --> CzServer: requests of a design loop --> answers, lines of JSON
+ *
  *   measured curve --> CzFit --> stages of a problem file
  *
  * SI units inside; compression positive, x forward, z up, pitch positive nose-up.
@@ -41,6 +43,7 @@
 #include "crushzone/status.h"
 #include "crushzone/sample.h"
 #include "crushzone/shards.h"
+#include "crushzone/serve.h"
 #include "crushzone/sweep.h"
 #include "crushzone/verify.h"
 

@@ -77,8 +77,31 @@ typedef enum CzReportKind {
     CZ_REPORT_COMPARISON,   /* runs that are compared with the first one */
     CZ_REPORT_FIT,          /* fit */
     CZ_REPORT_MISTAKES,     /* mistake */
+    CZ_REPORT_ANSWER,       /* problem, evaluator, reply */
     CZ_N_REPORT
 } CzReportKind;
+
+/* A value and its derivatives by the design variables. */
+typedef struct CzSlope {
+    const char *of;   /* "objective", the name of a constraint, or a metric */
+    double value;     /* in its unit; NaN when it is not known */
+    const double *by; /* per unit of each variable (n_variable) */
+} CzSlope;
+
+/* Results that an answer contains beside verdict, objective and smallest margin. */
+enum { CZ_REPLY_CHECKS = 1, CZ_REPLY_CONSTRAINTS = 2 };
+
+/* An answer to one request of a design loop, all borrowed. It is a description when it has neither
+ * an error nor an evaluation. */
+typedef struct CzReply {
+    bool has_id;
+    long id;                        /* of the request */
+    CzError error;                  /* reason why there is no answer; CZ_OK for none */
+    const CzEvaluation *evaluation; /* of a design */
+    unsigned parts;                 /* a sum of CZ_REPLY_... */
+    int n_slope;
+    const CzSlope *slope; /* of a gradient (n_slope) */
+} CzReply;
 
 /* Results to write, all borrowed. Only the members of its kind are set. */
 typedef struct CzReport {
@@ -102,13 +125,18 @@ typedef struct CzReport {
     const CzFit *fit;
     const CzError *const *mistake; /* (n_mistake) */
     int n_mistake;
+    const CzReply *reply;
 } CzReport;
 
 enum { CZ_MOST_COMPARED = 8 };
 
-/* The JSON document. Statuses: CZ_STATUS_OUTPUT when the stream fails, CZ_STATUS_NO_MEMORY. */
+/* The JSON document; an answer is one line. Statuses: CZ_STATUS_OUTPUT when the stream fails,
+ * CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_json(const CzReport *report, FILE *stream,
                                                    CzError *error);
+
+/* An answer alone, without the end of its line, for a list of answers. */
+CZ_API void cz_report_write_answer(const CzReport *report, FILE *stream);
 
 /* Tables for a terminal, of all but fits and mistakes: the worst member of a family of scenarios;
  * before and after a search, violated constraints, and the new values as YAML; the points of a

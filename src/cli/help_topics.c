@@ -266,6 +266,7 @@ static void write_results(void) {
          "--markdown'.\n'crushzone schema DOCUMENT' prints the JSON schema of a document:\n");
     for (int i = 0; cz_report_document_name(i) != NULL; i++)
         printf("  %s\n", cz_report_document_name(i));
+    puts("\n'crushzone schema request' prints that of a request to serve.");
 }
 
 static void write_events(void) {

@@ -2,6 +2,7 @@
 #include "cli/command.h"
 #include "cli/messages.h"
 #include "crushzone/report.h"
+#include "crushzone/serve.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -13,6 +14,8 @@ int cz_command_schema(const CzArguments *arguments) {
     CzError error = {0};
     if (arguments->n_operand == 0)
         cz_keys_write_schema(stdout);
+    else if (strcmp(arguments->operand[0], "request") == 0)
+        cz_server_write_request_schema(stdout);
     else if (cz_report_write_document_schema(arguments->operand[0], stdout, &error) != CZ_OK) {
         snprintf(error.help, sizeof error.help, "'crushzone help results' lists the documents");
         return cz_tell_error(arguments, &error);

@@ -15,6 +15,7 @@ set(CZ_SOURCES_cli
     command_pareto.c
     command_problem.c
     command_run.c
+    command_serve.c
     command_sample.c
     command_sweep.c
     command_study.c
@@ -22,6 +23,7 @@ set(CZ_SOURCES_cli
     help_pages.c
     help_topics.c
     interrupt.c
+    lines.c
     main.c
     messages.c
     recall.c

@@ -21,7 +21,8 @@ const CzRecord cz_document_records[CZ_N_REPORT] = {
     [CZ_REPORT_EXPLANATION] = CZ_RECORD_EXPLANATION,
     [CZ_REPORT_COMPARISON] = CZ_RECORD_COMPARISON,
     [CZ_REPORT_FIT] = CZ_RECORD_FIT,
-    [CZ_REPORT_MISTAKES] = CZ_RECORD_MISTAKES};
+    [CZ_REPORT_MISTAKES] = CZ_RECORD_MISTAKES,
+    [CZ_REPORT_ANSWER] = CZ_RECORD_ANSWER};
 
 /* The YAML text of a law, to be freed; NULL without memory. */
 static char *yaml_of(const CzFit *fit) {
@@ -47,6 +48,12 @@ static CzStatus write_fit(const CzFit *fit, CzResultContext *context, FILE *stre
         status = cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for a JSON document");
     free(yaml);
     return status;
+}
+
+void cz_report_write_answer(const CzReport *report, FILE *stream) {
+    CzResultContext context = {
+        .report = report, .problem = report->problem, .evaluation = report->reply->evaluation};
+    cz_results_write_line(CZ_RECORD_ANSWER, &context, report->reply, stream);
 }
 
 CzStatus cz_report_write_json(const CzReport *report, FILE *stream, CzError *error) {
@@ -115,6 +122,12 @@ CzStatus cz_report_write_json(const CzReport *report, FILE *stream, CzError *err
         break;
     case CZ_REPORT_FIT:
         return write_fit(report->fit, &context, stream, error);
+    case CZ_REPORT_ANSWER:
+        cz_report_write_answer(report, stream);
+        fputc('\n', stream);
+        return fflush(stream) == 0 && !ferror(stream)
+                   ? CZ_OK
+                   : cz_fail(error, CZ_STATUS_OUTPUT, "the answer cannot be written");
     case CZ_REPORT_COMPARISON:
     case CZ_REPORT_MISTAKES:
     case CZ_N_REPORT:

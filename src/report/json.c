@@ -36,12 +36,13 @@ static void write_text(FILE *stream, const char *text) {
 }
 
 static void begin_line(const CzJson *json) {
-    fprintf(json->stream, "\n%*s", 2 * json->depth, "");
+    if (!json->is_line)
+        fprintf(json->stream, "\n%*s", 2 * json->depth, "");
 }
 
 static void begin_item(CzJson *json, const char *key) {
     if (json->has_item)
-        fputc(',', json->stream);
+        fputs(json->is_line ? ", " : ",", json->stream);
     if (json->depth > 0)
         begin_line(json);
     json->has_item = true;

@@ -1,4 +1,4 @@
-/* A JSON document, written from top to bottom, two blanks a level. */
+/* A JSON document, written from top to bottom, two blanks a level or on one line. */
 #ifndef CZ_REPORT_JSON_H
 #define CZ_REPORT_JSON_H
 
@@ -12,6 +12,7 @@ typedef struct CzJson {
     int depth;     /* records and lists that are open */
     char end[16];  /* the sign that closes each, outermost first; no document is that deep */
     bool has_item; /* the innermost has an item already */
+    bool is_line;  /* the document is one line */
 } CzJson;
 
 /* Opens a record or a list; the key is NULL inside a list and for the document. */

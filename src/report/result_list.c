@@ -2,6 +2,7 @@
 #include "report/results.h"
 
 #include "evaluate/evaluator.h"
+#include "evaluate/metric.h"
 #include "problem/problem.h"
 #include "report/compare.h"
 #include "report/runs.h"
@@ -88,6 +89,30 @@ static int n_warning(CzResultContext *context) {
     while (warning(context, n) != NULL)
         n++;
     return n;
+}
+
+/* ---- answers ---- */
+
+static bool is_evaluated(const CzReply *answer) {
+    return answer->evaluation != NULL;
+}
+
+static bool is_description(const CzReply *answer) {
+    return answer->evaluation == NULL && answer->error.status == CZ_OK;
+}
+
+static const char *answer_word(const CzReply *answer) {
+    if (answer->error.status != CZ_OK)
+        return "error";
+    return is_evaluated(answer) && answer->evaluation->status != CZ_OK ? "failed" : "ok";
+}
+
+/* NaN when no check has a margin. */
+static double smallest_margin(const CzEvaluation *evaluation) {
+    double smallest = NAN;
+    for (int i = 0; i < evaluation->n_check; i++) /* fmin ignores NaN */
+        smallest = fmin(smallest, evaluation->check[i].margin);
+    return smallest;
 }
 
 /* ---- runs ---- */

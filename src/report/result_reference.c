@@ -14,7 +14,7 @@ static const char *const documents[CZ_N_REPORT] = {
     [CZ_REPORT_CORRIDOR] = "corridor",     [CZ_REPORT_VERIFICATION] = "verification",
     [CZ_REPORT_BENCHMARK] = "benchmark",   [CZ_REPORT_EXPLANATION] = "explanation",
     [CZ_REPORT_COMPARISON] = "comparison", [CZ_REPORT_FIT] = "fit",
-    [CZ_REPORT_MISTAKES] = "mistakes"};
+    [CZ_REPORT_MISTAKES] = "mistakes",     [CZ_REPORT_ANSWER] = "answer"};
 
 const char *cz_report_document_name(int index) {
     return index < CZ_N_REPORT ? documents[index] : NULL;
@@ -42,7 +42,7 @@ static const char *type_of(const CzResult *result) {
 static bool may_be_null(const CzResult *result) {
     switch (result->form) {
     case CZ_FORM_NUMBER:
-        return result->is_there == NULL;
+        return result->is_there == NULL || result->number != NULL;
     case CZ_FORM_WHOLE:
         return result->is_null_below_0;
     case CZ_FORM_TEXT:

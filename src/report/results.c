@@ -187,3 +187,9 @@ CzStatus cz_results_write(CzRecord record, CzResultContext *context, const void 
     put_record(&json, NULL, record, context, data);
     return cz_json_finish(&json, error);
 }
+
+void cz_results_write_line(CzRecord record, CzResultContext *context, const void *data,
+                           FILE *stream) {
+    CzJson json = {.stream = stream, .is_line = true};
+    put_record(&json, NULL, record, context, data);
+}

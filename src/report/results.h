@@ -147,4 +147,8 @@ extern const CzRecord cz_document_records[CZ_N_REPORT];
 CZ_MUST_CHECK CzStatus cz_results_write(CzRecord record, CzResultContext *context, const void *data,
                                         FILE *stream, CzError *error);
 
+/* The same on one line, without its end. */
+void cz_results_write_line(CzRecord record, CzResultContext *context, const void *data,
+                           FILE *stream);
+
 #endif

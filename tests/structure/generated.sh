@@ -21,7 +21,7 @@ check "docs/crushzone.bash is what 'crushzone help --completion bash' prints" \
     same docs/crushzone.bash "$PROGRAM" help --completion bash
 check "docs/results.md is what 'crushzone help results --markdown' prints" \
     same docs/results.md "$PROGRAM" help results --markdown
-for document in summary outcome; do
+for document in summary outcome request answer; do
     check "docs/$document.schema.json is what 'crushzone schema $document' prints" \
         same docs/$document.schema.json "$PROGRAM" schema $document
 done

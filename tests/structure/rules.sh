@@ -1,12 +1,12 @@
 # The rules of the tree, each a function that prints the offenders, one a line; run from the project's root.
 
-library_folders="base statistics laws text tree problem model fit dynamics integrate simulate evaluate optimise report"
+library_folders="base statistics laws text tree problem model fit dynamics integrate simulate evaluate optimise report serve"
 folders="$library_folders cli"
 c_files() { # c_files FOLDER...: all C sources, headers and lists in them
     find "$@" -type f \( -name '*.c' -o -name '*.h' -o -name '*.def' \) 2>/dev/null | sort
 }
 
-# Arrows between the folders go one way: cli, report, optimise, evaluate, simulate, dynamics, fit, model, problem, tree, text, base.
+# Arrows between the folders go one way: cli, serve, report, optimise, evaluate, simulate, dynamics, fit, model, problem, tree, text, base.
 # dynamics, model and fit include laws, which includes nothing; simulate and dynamics include integrate, which includes base;
 # evaluate, optimise and report include statistics, which includes base.
 include_arrows() {
@@ -14,7 +14,7 @@ include_arrows() {
         for file in $(c_files src/$folder); do
             awk -v from=$folder '
                 BEGIN {
-                    n = split("base text tree problem model fit dynamics simulate evaluate optimise report cli", order, " ")
+                    n = split("base text tree problem model fit dynamics simulate evaluate optimise report serve cli", order, " ")
                     for (i = 1; i <= n; i++) { rank[order[i]] = i; public[order[i]] = order[i] }
                     public["status"] = public["names"] = "base"
                     public["channel"] = "problem"
@@ -22,7 +22,8 @@ include_arrows() {
                     public["corridor"] = "optimise"
                     public["executor"] = public["benchmark"] = public["sample"] = public["sweep"] = public["explain"] = public["verify"] = "evaluate"
                     public["robust"] = public["pareto"] = "optimise"
-                    public["crushzone"] = public["shards"] = "report"
+                    public["crushzone"] = "serve"
+                    public["shards"] = "report"
                 }
                 /^[ \t]*#[ \t]*include[ \t]*"/ {
                     split($0, part, "\"")
@@ -72,7 +73,7 @@ header_circles() {
 
 # The sources of these folders do not call one another in a circle either, through whatever header.
 call_circles() {
-    for folder in text tree problem fit report cli; do
+    for folder in text tree problem fit report serve cli; do
         list=$(c_files src/$folder | grep '\.c$')
         [ -n "$list" ] || continue
         awk '
@@ -137,7 +138,7 @@ angles_in_laws() {
 
 # A third-party library is named in one file, so that it can be replaced.
 third_party_headers() {
-    for header in nlopt.h yaml.h 'cvode/' 'arkode/' 'kinsol/' 'sundials/' pthread.h getopt.h; do
+    for header in nlopt.h yaml.h jansson.h 'cvode/' 'arkode/' 'kinsol/' 'sundials/' pthread.h getopt.h; do
         files=$(grep -rlE "#[[:space:]]*include[[:space:]]*[<\"]$header" src include)
         [ "$(echo "$files" | wc -l)" -le 1 ] || echo "$header in" $files
     done
@@ -265,7 +266,7 @@ bare_tolerances() {
 # Mechanical results of a run come from values that the kernel publishes, or from functions of dynamics: the folders that simulate,
 # judge and report read no parameter of a law and no sine or cosine of a body.
 mechanics_outside_dynamics() {
-    for folder in simulate evaluate optimise report cli; do
+    for folder in simulate evaluate optimise report serve cli; do
         c_files src/$folder | xargs grep -HnE 'CZ_PARAMETER|cz_lane_(parameter|at|block)\(|(\.|->)turned\b|\b(sin|cos|tan)\(' /dev/null |
             grep -vE ':[0-9]+: +\* ' # the text of a comment
     done
@@ -312,7 +313,7 @@ broken_scripts() {
 # A key of the results is in the lists of results and nowhere else: one file writes JSON, and no other names a key with its
 # unit.
 keys_by_hand() {
-    for folder in report cli; do c_files src/$folder; done | grep -v '\.def$' |
+    for folder in report serve cli; do c_files src/$folder; done | grep -v '\.def$' |
         xargs grep -HnE '#[[:space:]]*include[[:space:]]*"report/json.h"' | grep -v '^src/report/\(results\|json\)\.c:'
     c_files src/report | grep -v '\.def$' | xargs grep -HnE '"[a-z0-9_]+_(kN|mm|kJ|ms|mrad|km_h|kNs|kNms)"' | without_comments
 }

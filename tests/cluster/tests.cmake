@@ -1,0 +1,5 @@
+if(CZ_IS_WHOLE)
+    cz_script(slurm cluster slurm.sh)
+    cz_long_script(slurm_time_limit long slurm.sh limit)
+    cz_script(snakemake cluster snakemake.sh)
+endif()

@@ -232,6 +232,12 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_check_file(const CzProblem *problem, con
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_file(const char *path, CzReportWriter *write,
                                                    const void *data, CzError *error);
 
+/* A rule for make: `target` depends on every file that the problem was read from, such as base
+ * files, catalogues, curves and profiles. Each of them is a target without a rule too, so that make
+ * goes on when one is removed. */
+CZ_API void cz_report_write_dependencies(const CzProblem *problem, const char *target,
+                                         FILE *stream);
+
 /* The journal of a search in its result folder: history.jsonl has every evaluation, one line each,
  * written before the next begins; optimised.yaml is the best design so far. They are in the
  * subfolder `unfinished` as long as the folder has earlier results. With them a search that was

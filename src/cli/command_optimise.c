@@ -139,6 +139,8 @@ int cz_command_optimise(const CzArguments *arguments) {
         code = cz_session_begin(&search.session, &search.arguments, arguments->operand[0]);
         if (code == 0)
             code = cz_session_check_folder(&search.session, search.folder, true);
+        if (code == 0)
+            code = cz_session_write_depfile(&search.session, search.folder, "outcome.json");
         if (code == 0 && !resumes)
             code = cz_resume_open(&search.arguments, search.folder, &search.journal);
         if (code == 0)

@@ -96,6 +96,8 @@ static int run_file(const CzArguments *arguments, const char *file) {
     if (code == 0)
         code =
             cz_session_check_folder(&session, folder, arguments->text[CZ_OPTION_REPLACE] != NULL);
+    if (code == 0)
+        code = cz_session_write_depfile(&session, folder, "summary.json");
     if (code == 0) {
         CzEvaluation evaluation = {0};
         const double started = cz_clock();

@@ -175,6 +175,43 @@ int cz_session_check_folder(const CzSession *session, const char *folder, bool r
     return cz_tell_error(session->arguments, &error);
 }
 
+/* A target and the problem that it is made from. */
+typedef struct Made {
+    const CzProblem *problem;
+    char target[4096];
+} Made;
+
+static CzStatus write_rule(const void *data, FILE *stream, CzError *error) {
+    const Made *made = data;
+    (void)error; /* the stream keeps its failures */
+    cz_report_write_dependencies(made->problem, made->target, stream);
+    return CZ_OK;
+}
+
+int cz_session_write_depfile(const CzSession *session, const char *folder, const char *document) {
+    const char *path = session->arguments->text[CZ_OPTION_DEPFILE];
+    CzError error = {0};
+    if (path == NULL)
+        return 0;
+    CzStatus status = CZ_OK;
+    Made made = {.problem = session->problem};
+    if (folder == NULL)
+        status = cz_fail(&error, CZ_STATUS_INPUT, "--depfile needs a result folder: give -o DIR");
+    else if (session->arguments->n_operand > 1)
+        status = cz_fail(&error, CZ_STATUS_INPUT,
+                         "--depfile is of one problem file: run the files one at a time");
+    if (status == CZ_OK)
+        status = cz_report_check_file(session->problem, path, false, &error);
+    if (status == CZ_OK) {
+        size_t n = strlen(folder);
+        while (n > 1 && folder[n - 1] == '/')
+            n--;
+        snprintf(made.target, sizeof made.target, "%.*s/%s", (int)n, folder, document);
+        status = cz_report_write_file(path, write_rule, &made, &error);
+    }
+    return status == CZ_OK ? 0 : cz_tell_error(session->arguments, &error);
+}
+
 /* Mistakes that were found while reading are all reported; later ones alone, with their source
  * line. */
 int cz_session_fail(const CzSession *session, const CzError *error) {

@@ -51,6 +51,11 @@ CZ_MUST_CHECK int cz_keep_results(const CzArguments *arguments, const CzReport *
 CZ_MUST_CHECK int cz_session_check_folder(const CzSession *session, const char *folder,
                                           bool replaces_search);
 
+/* Writes the file of --depfile, if any: a document in the result folder (NULL: none) depends on the
+ * files of the problem. Returns the exit code of a failure, 0 without. */
+CZ_MUST_CHECK int cz_session_write_depfile(const CzSession *session, const char *folder,
+                                           const char *document);
+
 /* Writes the folder of -o, if any, then prints; returns the exit code of a failure, 0 without. */
 CZ_MUST_CHECK int cz_session_deliver(const CzSession *session, const CzReport *report);
 

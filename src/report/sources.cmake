@@ -12,6 +12,7 @@ set(CZ_SOURCES_report
     corridor_figure.c
     corridor_table.c
     csv.c
+    dependencies.c
     documents.c
     drawn.c
     elevation.c

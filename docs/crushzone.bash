@@ -3,7 +3,7 @@ _crushzone() {
     local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} words='' options=''
     COMPREPLY=()
     if [ "$COMP_CWORD" = 1 ]; then
-        words='run check optimise sweep sample merge pareto challenge corridor explain verify bench serve report plot compare validate show fit new schema help version'
+        words='run check optimise sweep sample merge pareto challenge corridor dakota explain verify bench serve report plot compare validate show fit new schema help version'
         COMPREPLY=($(compgen -W "$words" -- "$word"))
         return
     fi
@@ -13,6 +13,8 @@ _crushzone() {
     --scenario) return ;;
     --time-step-ms) return ;;
     --integrator) words='zhai erk adams' ;;
+    --depfile) COMPREPLY=($(compgen -f -- "$word")); return ;;
+    --problem) COMPREPLY=($(compgen -f -- "$word")); return ;;
     --vary) return ;;
     --minimise) return ;;
     --points | -n) return ;;
@@ -58,15 +60,16 @@ _crushzone() {
         return
     fi
     case ${COMP_WORDS[1]} in
-    run) options='--output --force --json --quiet --verbose --set --scenario --time-step-ms --integrator --iso-mme --strict --jobs --csv-sep --csv-decimal --color --help' ;;
-    check) options='--output --force --json --quiet --verbose --set --scenario --time-step-ms --integrator --jobs --csv-sep --csv-decimal --color --help' ;;
-    optimise | optimize) options='--output --json --quiet --verbose --set --time-step-ms --algorithm --evaluations --seed --resume --max-time --jobs --csv-sep --csv-decimal --color --help' ;;
+    run) options='--output --force --json --quiet --verbose --set --scenario --time-step-ms --integrator --iso-mme --depfile --strict --jobs --csv-sep --csv-decimal --color --help' ;;
+    check) options='--output --force --json --quiet --verbose --set --scenario --time-step-ms --integrator --depfile --jobs --csv-sep --csv-decimal --color --help' ;;
+    optimise | optimize) options='--output --json --quiet --verbose --set --time-step-ms --depfile --algorithm --evaluations --seed --resume --max-time --jobs --csv-sep --csv-decimal --color --help' ;;
     sweep) options='--output --force --json --quiet --set --scenario --time-step-ms --strict --vary --metric --check --shard --jobs --csv-sep --csv-decimal --color --help' ;;
     sample) options='--output --force --json --quiet --set --time-step-ms --seed --samples --shard --jobs --csv-sep --csv-decimal --color --help' ;;
     merge) options='--output --force --json --quiet --jobs --csv-sep --csv-decimal --color --help' ;;
     pareto) options='--output --force --json --quiet --verbose --set --time-step-ms --minimise --points --algorithm --evaluations --seed --resume --max-time --jobs --csv-sep --csv-decimal --color --help' ;;
     challenge) options='--output --force --json --quiet --set --time-step-ms --seed --runs --jobs --csv-sep --csv-decimal --color --help' ;;
     corridor) options='--output --force --json --quiet --set --time-step-ms --seed --part --curves --no-scatter --jobs --csv-sep --csv-decimal --color --help' ;;
+    dakota) options='--quiet --set --scenario --time-step-ms --problem --jobs --color --help' ;;
     explain) options='--json --quiet --set --scenario --time-step-ms --jobs --color --help' ;;
     verify) options='--json --quiet --verbose --set --scenario --time-step-ms --jobs --color --help' ;;
     bench) options='--json --quiet --set --scenario --time-step-ms --rounds --color --help' ;;
@@ -85,7 +88,7 @@ _crushzone() {
     if [[ $word == -* ]]; then
         COMPREPLY=($(compgen -W "$options" -- "$word"))
     elif [ "${COMP_WORDS[1]}" = help ]; then
-        COMPREPLY=($(compgen -W 'keys units checks verdicts profiles paths algorithms channels results events figures files exit-codes run check optimise sweep sample merge pareto challenge corridor explain verify bench serve report plot compare validate show fit new schema help version' -- "$word"))
+        COMPREPLY=($(compgen -W 'keys units checks verdicts profiles paths algorithms channels results events figures files exit-codes run check optimise sweep sample merge pareto challenge corridor dakota explain verify bench serve report plot compare validate show fit new schema help version' -- "$word"))
     elif [ "${COMP_WORDS[1]}" != new ]; then
         COMPREPLY=($(compgen -f -- "$word"))
     else

@@ -30,6 +30,7 @@
 #include "crushzone/challenge.h"
 #include "crushzone/channel.h"
 #include "crushzone/corridor.h"
+#include "crushzone/dakota.h"
 #include "crushzone/evaluate.h"
 #include "crushzone/executor.h"
 #include "crushzone/explain.h"

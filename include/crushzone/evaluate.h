@@ -207,9 +207,9 @@ typedef double (*CzObjective)(int n_scenario, const CzRunSummary *const *summary
 CZ_API void cz_evaluator_set_objective(CzEvaluator *evaluator, const char *name, const char *unit,
                                        CzObjective objective, void *data);
 
-/* Further metrics of every later evaluation, such as "interfaces.A4-B1.peak_force_kN"; none with
- * n_metric 0. Statuses: CZ_OK, CZ_STATUS_INPUT with the nearest name as help, and then there are
- * none; CZ_STATUS_NO_MEMORY. */
+/* Further metrics of every later evaluation, such as "interfaces.A4-B1.peak_force_kN", with
+ * "@SCENARIO" behind it of this scenario or family; none with n_metric 0. Statuses: CZ_OK,
+ * CZ_STATUS_INPUT with the nearest name as help, and then there are none; CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_evaluator_set_values(CzEvaluator *evaluator, int n_metric,
                                                       const char *const *metric, CzError *error);
 

@@ -8,6 +8,7 @@ set(CZ_SOURCES_cli
     command_challenge.c
     command_fit.c
     command_corridor.c
+    command_dakota.c
     command_figures.c
     command_merge.c
     command_new.c

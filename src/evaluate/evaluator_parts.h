@@ -12,6 +12,7 @@
 typedef struct CzWanted {
     CzMetric metric;
     char name[CZ_PATH_ROOM];
+    char scenario[CZ_NAME_ROOM]; /* only this scenario or family; empty for all */
 } CzWanted;
 
 struct CzEvaluator {
@@ -61,6 +62,9 @@ static inline CzVariantScenes cz_evaluator_scenes(const CzEvaluator *evaluator) 
                              .first = evaluator->first_scenario,
                              .beside = of != NULL ? &of->variant[0] : NULL};
 }
+
+/* Whether a metric is wanted of a scenario (wanted.c). */
+bool cz_wanted_is_of(const CzWanted *wanted, const CzScene *scene);
 
 /* The vehicles of a scenario among those of all variations of a design. */
 static inline const CzVehicle *cz_vehicles_in(const CzEvaluator *evaluator,

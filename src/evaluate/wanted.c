@@ -6,6 +6,27 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Reads "METRIC" or "METRIC@SCENARIO". */
+static CzStatus read_wanted(const CzEvaluator *evaluator, const char *text, CzWanted *wanted,
+                            CzError *error) {
+    const char *at = strrchr(text, '@');
+    int first;
+    snprintf(wanted->name, sizeof wanted->name, "%s", text);
+    wanted->scenario[0] = '\0';
+    if (at == NULL || strlen(text) >= sizeof wanted->name)
+        return cz_metric_parse(text, &wanted->metric, error);
+    wanted->name[at - text] = '\0';
+    CZ_TRY(cz_metric_parse(wanted->name, &wanted->metric, error));
+    CZ_TRY(cz_problem_find_scenario(evaluator->problem, at + 1, &first, error));
+    snprintf(wanted->name, sizeof wanted->name, "%s", text);
+    snprintf(wanted->scenario, sizeof wanted->scenario, "%s", at + 1);
+    return CZ_OK;
+}
+
+bool cz_wanted_is_of(const CzWanted *wanted, const CzScene *scene) {
+    return wanted->scenario[0] == '\0' || cz_scene_is(scene, wanted->scenario);
+}
+
 CzStatus cz_evaluator_set_values(CzEvaluator *evaluator, int n_metric, const char *const *metric,
                                  CzError *error) {
     evaluator->n_wanted = 0;
@@ -15,17 +36,16 @@ CzStatus cz_evaluator_set_values(CzEvaluator *evaluator, int n_metric, const cha
     if (wanted == NULL)
         return cz_no_memory(error, "the metrics of an evaluation");
     evaluator->wanted = wanted;
-    for (int i = 0; i < n_metric; i++) {
-        CZ_TRY(cz_metric_parse(metric[i], &wanted[i].metric, error));
-        snprintf(wanted[i].name, sizeof wanted[i].name, "%s", metric[i]);
-    }
+    for (int i = 0; i < n_metric; i++)
+        CZ_TRY(read_wanted(evaluator, metric[i], &wanted[i], error));
     evaluator->n_wanted = n_metric;
     return CZ_OK;
 }
 
 bool cz_evaluator_has_metric(const CzEvaluator *evaluator, int wanted) {
     for (int s = 0; s < evaluator->n_scene; s++)
-        if (cz_metric_picks(&evaluator->wanted[wanted].metric, &evaluator->scene[s]))
+        if (cz_wanted_is_of(&evaluator->wanted[wanted], &evaluator->scene[s]) &&
+            cz_metric_picks(&evaluator->wanted[wanted].metric, &evaluator->scene[s]))
             return true;
     return false;
 }

@@ -7,8 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Step of a variable in its unit, 0 for one that chooses or is fixed. */
-static double step_of(const CzVariableInfo *info, double x, double share) {
+double cz_gradient_step(const CzVariableInfo *info, double x, double share) {
     const double step = share * (info->max - info->min);
     if (info->n_choice > 0 || info->is_fixed)
         return 0;
@@ -71,7 +70,7 @@ CzStatus cz_gradient(CzEvaluator *evaluator, const double *x, double step, bool 
         memcpy(points + k * n, x, (size_t)n * sizeof *x);
         if (k > 0)
             points[k * n + k - 1] +=
-                step_of(cz_evaluator_variable(evaluator, k - 1), x[k - 1], step);
+                cz_gradient_step(cz_evaluator_variable(evaluator, k - 1), x[k - 1], step);
     }
     CzStatus status = cz_evaluate(evaluator, n + 1, points, false, evaluation, error);
     if (status == CZ_OK)

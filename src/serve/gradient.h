@@ -5,6 +5,9 @@
 #include "base/arena.h"
 #include "crushzone/report.h"
 
+/* Step of a difference, as a share of the range of a variable, as in a search. */
+#define CZ_GRADIENT_STEP 1e-3
+
 typedef struct CzGradient {
     CzEvaluation evaluation; /* of the design itself; the caller frees it */
     int n_slope;
@@ -18,5 +21,9 @@ typedef struct CzGradient {
 CZ_MUST_CHECK CzStatus cz_gradient(CzEvaluator *evaluator, const double *x, double step,
                                    bool of_constraints, CzArena *arena, CzGradient *gradient,
                                    CzError *error);
+
+/* That step of a variable in its unit, towards the inside at a bound; 0 for one that chooses or is
+ * fixed. */
+double cz_gradient_step(const CzVariableInfo *info, double x, double share);
 
 #endif

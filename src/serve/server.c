@@ -161,7 +161,7 @@ static CzStatus evaluate(Group *group, CzError *error) {
 
 static CzStatus differentiate(Group *group, CzError *error) {
     const CzRequest *request = group->request[0];
-    const double step = isnan(request->step) ? 1e-3 : request->step;
+    const double step = isnan(request->step) ? CZ_GRADIENT_STEP : request->step;
     const unsigned parts = parts_of(request);
     CzGradient gradient;
     CZ_TRY(cz_gradient(group->evaluator, group->x, step, (parts & CZ_REPLY_CONSTRAINTS) != 0,

@@ -14,6 +14,7 @@ problem | resolved)
     [ "$target" = resolved ] || copy "$SOURCE"/tests/problem/bad/*.yaml
     ;;
 journal) copy "$SOURCE/tests/fuzz/journal.jsonl" "$SOURCE/tests/fuzz/shard.jsonl" ;;
+dakota) copy "$SOURCE"/tests/fuzz/dakota/*.in ;;
 serve) split -l 1 "$SOURCE/tests/fuzz/requests.jsonl" "$folder/request-" ;;
 profile) copy "$SOURCE"/problems/profiles/*.yaml "$SOURCE"/tests/problem/*/profiles/*.yaml ;;
 curve) # the first two bytes choose the device and how the file is read

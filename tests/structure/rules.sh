@@ -22,7 +22,7 @@ include_arrows() {
                     public["corridor"] = "optimise"
                     public["executor"] = public["benchmark"] = public["sample"] = public["sweep"] = public["explain"] = public["verify"] = "evaluate"
                     public["robust"] = public["pareto"] = "optimise"
-                    public["crushzone"] = "serve"
+                    public["crushzone"] = public["dakota"] = "serve"
                     public["shards"] = "report"
                 }
                 /^[ \t]*#[ \t]*include[ \t]*"/ {

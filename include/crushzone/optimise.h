@@ -11,6 +11,8 @@ CZ_BEGIN_DECLARATIONS
 
 typedef enum CzOutcomeStatus {
     CZ_OUTCOME_FEASIBLE,
+    CZ_OUTCOME_UNVERIFIED, /* designs satisfy every constraint, but none that was tried is verified
+                            */
     CZ_OUTCOME_INFEASIBLE,
     CZ_OUTCOME_INTERRUPTED
 } CzOutcomeStatus;
@@ -104,6 +106,23 @@ typedef struct CzRelaxation {
     long n_evaluation; /* designs that were evaluated for it after the search */
 } CzRelaxation;
 
+/* A design that satisfies every constraint and is better than the result, but is not verified. */
+typedef struct CzRejected {
+    const double *x; /* in the variables' units (n_variable) */
+    double objective;
+    CzVerifyMethod method; /* by which it is refused, with the largest change */
+    CzVerifiedValue value; /* that changes most, one that changes its verdict first; without a name
+                              when a run failed */
+    char failure[320];     /* of a run; empty otherwise */
+} CzRejected;
+
+/* Runs of a search in one scenario. */
+typedef struct CzScenarioUse {
+    const char *name; /* borrowed from the evaluator */
+    long n_run;       /* designs of the search that were run in it */
+    bool is_in_set;   /* it is in the working set at the end */
+} CzScenarioUse;
+
 /* Open result, owns its memory. The start and best evaluations were made from scratch after the
  * search. */
 typedef struct CzOutcome {
@@ -121,6 +140,12 @@ typedef struct CzOutcome {
     double *alternative_objective; /* (n_alternative) */
     CzVerification *verification;  /* of the best design; NULL when it does not pass or the search
                                       was interrupted */
+    int n_rejected;
+    CzRejected *rejected;    /* better designs that were not verified, in the order of their trial
+                                (n_rejected) */
+    long n_whole;            /* designs of the search that were run in all scenarios */
+    int n_scenario;          /* 0 when every design was run in all scenarios */
+    CzScenarioUse *scenario; /* (n_scenario) */
     double *sensitivity_increment; /* tried change of one variable at the best design, in its unit:
                                       negative at the upper bound, 0 when none was tried; NULL after
                                       an interruption (n_variable) */

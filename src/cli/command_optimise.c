@@ -76,6 +76,7 @@ static int judge(const CzOutcome *outcome) {
     switch (outcome->status) {
     case CZ_OUTCOME_FEASIBLE:
         return 0;
+    case CZ_OUTCOME_UNVERIFIED:
     case CZ_OUTCOME_INFEASIBLE:
         return cz_status_exit_code(CZ_STATUS_VIOLATED);
     case CZ_OUTCOME_INTERRUPTED:

@@ -85,4 +85,34 @@ bool cz_evaluator_has_metric(const CzEvaluator *evaluator, int wanted);
 bool cz_evaluator_take_settings(const CzEvaluator *evaluator, int n, const char *const *path,
                                 const double *number, double *x);
 
+/* ---- some scenarios ---- */
+
+/* Whether a search may run designs in some scenarios: not that of a fit, nor with the caller's
+ * objective, which are given all runs. */
+bool cz_evaluator_can_select(const CzEvaluator *evaluator);
+
+int cz_evaluator_n_scenario(const CzEvaluator *evaluator);
+const char *cz_evaluator_scenario_name(const CzEvaluator *evaluator, int scenario);
+
+/* Whether a scenario is run at all. */
+bool cz_evaluator_has_run_of(const CzEvaluator *evaluator, int scenario);
+
+/* Scenario of a constraint, -1 for one of the design; name of its check; number of its details. */
+int cz_evaluator_constraint_scenario(const CzEvaluator *evaluator, int constraint);
+const char *cz_evaluator_constraint_check(const CzEvaluator *evaluator, int constraint);
+int cz_evaluator_n_detail_of(const CzEvaluator *evaluator, int constraint);
+
+/* As cz_evaluator_search, in some scenarios (n_scenario) only, and with the runs kept. The
+ * constraints and details of the others are without meaning; the objective is that of these runs.
+ */
+CZ_MUST_CHECK CzStatus cz_evaluator_search_some(const CzEvaluator *evaluator, const bool *some,
+                                                int n_point, const double *x,
+                                                CzEvaluation *evaluation, double *detail,
+                                                CzError *error);
+
+/* Runs one design in the scenarios that are left, and replaces its evaluation by that in all. */
+CZ_MUST_CHECK CzStatus cz_evaluator_search_rest(const CzEvaluator *evaluator, const bool *some,
+                                                const double *x, CzEvaluation *evaluation,
+                                                double *detail, CzError *error);
+
 #endif

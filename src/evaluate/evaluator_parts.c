@@ -118,7 +118,8 @@ static const CzCheck *constraint_at(const CzEvaluator *evaluator, int constraint
     return &evaluator->list.check[evaluator->constraint_check[constraint]];
 }
 
-static int n_detail_of(const CzEvaluator *evaluator, const CzCheck *check) {
+int cz_evaluator_n_detail_of(const CzEvaluator *evaluator, int constraint) {
+    const CzCheck *check = constraint_at(evaluator, constraint);
     return cz_check_n_detail(
         check, check->scenario == CZ_NO_SCENARIO ? NULL : &evaluator->scene[check->scenario]);
 }
@@ -131,7 +132,7 @@ static void count_details(CzEvaluator *evaluator) {
     if (evaluator->matches.n_item > 0)
         return; /* the details of a fit are its residuals */
     for (int j = 0; j < evaluator->list.n_constraint; j++)
-        evaluator->n_detail += n_detail_of(evaluator, constraint_at(evaluator, j));
+        evaluator->n_detail += cz_evaluator_n_detail_of(evaluator, j);
 }
 
 static CzStatus build_objective(CzEvaluator *evaluator, const CzAim *aim, CzError *error) {
@@ -234,6 +235,30 @@ const char *cz_evaluator_constraint_name(const CzEvaluator *evaluator, int const
     return evaluator->constraint_name[constraint];
 }
 
+bool cz_evaluator_can_select(const CzEvaluator *evaluator) {
+    return evaluator->matches.n_item == 0 && evaluator->own_objective == NULL;
+}
+
+int cz_evaluator_n_scenario(const CzEvaluator *evaluator) {
+    return evaluator->n_scene;
+}
+
+const char *cz_evaluator_scenario_name(const CzEvaluator *evaluator, int scenario) {
+    return evaluator->scene[scenario].name;
+}
+
+bool cz_evaluator_has_run_of(const CzEvaluator *evaluator, int scenario) {
+    return evaluator->model[scenario] != NULL && !evaluator->is_left_out[scenario];
+}
+
+int cz_evaluator_constraint_scenario(const CzEvaluator *evaluator, int constraint) {
+    return constraint_at(evaluator, constraint)->scenario;
+}
+
+const char *cz_evaluator_constraint_check(const CzEvaluator *evaluator, int constraint) {
+    return constraint_at(evaluator, constraint)->name;
+}
+
 const char *cz_evaluator_objective_name(const CzEvaluator *evaluator) {
     return evaluator->objective_name;
 }
@@ -279,9 +304,8 @@ void cz_evaluator_mark_activations(const CzEvaluator *evaluator, bool *is_activa
     if (evaluator->matches.n_item > 0)
         return; /* residuals */
     for (int j = 0; j < evaluator->list.n_constraint; j++) {
-        const CzCheck *check = constraint_at(evaluator, j);
-        const bool is_marked = cz_check_is_activation(check);
-        for (int k = n_detail_of(evaluator, check); k > 0; k--)
+        const bool is_marked = cz_check_is_activation(constraint_at(evaluator, j));
+        for (int k = cz_evaluator_n_detail_of(evaluator, j); k > 0; k--)
             is_activation[n++] = is_marked;
     }
 }

@@ -26,7 +26,10 @@ typedef struct Block {
     CzVariant own[BLOCK];            /* variants of designs that are read again (n_point) */
     bool is_refused[BLOCK];          /* designs that break a rule of files (n_point) */
     CzRun **run;                     /* (n_point x n_scene) */
-    bool record, keep;               /* channels are recorded, runs are kept */
+    const bool *some;                /* the only scenarios that are run; NULL for all (n_scene) */
+    CzEvaluation *begun; /* evaluation of the only design in these scenarios, whose runs are taken
+                            over; NULL for none */
+    bool record, keep;   /* channels are recorded, runs are kept */
     CzManner manner;
     CzRunPlan plan;
 } Block;
@@ -96,6 +99,23 @@ static CzStatus run_chunk(int index, void *data, CzError *error) {
     return status;
 }
 
+/* Whether a scenario is to be run: one of some, or the rest. */
+static bool is_wanted(const Block *block, int design, int scene) {
+    if (block->begun != NULL)
+        return block->run[design * block->evaluator->n_scene + scene] == NULL;
+    return block->some == NULL || block->some[scene];
+}
+
+/* Takes over the runs of a design that was evaluated in some scenarios. */
+static void take_begun(const Block *block) {
+    const CzEvaluator *evaluator = block->evaluator;
+    for (int s = 0, k = 0; s < evaluator->n_scene && k < block->begun->n_run; s++)
+        if (block->some[s] && cz_evaluator_has_run_of(evaluator, s))
+            block->run[s] = block->begun->run[k++];
+    block->begun->n_run = 0;
+    cz_evaluation_free(block->begun);
+}
+
 /* Lists the runs of all designs that are not refused. */
 static void list_runs(Block *block) {
     const CzEvaluator *evaluator = block->evaluator;
@@ -104,7 +124,7 @@ static void list_runs(Block *block) {
         const CzVariant *variant =
             is_reread ? &block->own[i] : &evaluator->variant[block->combination[i]];
         for (int s = 0; s < evaluator->n_scene && !block->is_refused[i]; s++)
-            if (variant->model[s] != NULL && !evaluator->is_left_out[s])
+            if (variant->model[s] != NULL && !evaluator->is_left_out[s] && is_wanted(block, i, s))
                 block->plan.item[block->plan.n_item++] =
                     (CzRunItem){.design = i,
                                 .scene = s,
@@ -200,6 +220,8 @@ static CzStatus evaluate_block(const Block *settings, int n_point, const double 
                             vehicles + v * evaluator->n_vehicle);
         block.vehicle[i] = vehicles;
     }
+    if (status == CZ_OK && block.begun != NULL)
+        take_begun(&block);
     if (status == CZ_OK)
         status = run_block(&block, error);
     if (status == CZ_OK)
@@ -241,15 +263,40 @@ CzStatus cz_evaluate(CzEvaluator *evaluator, int n_point, const double *x, bool 
     return evaluate_all(&settings, n_point, x, evaluation, NULL, error);
 }
 
+/* Settings of the runs of a search. */
+static Block search_settings(const CzEvaluator *evaluator) {
+    const bool is_fit = evaluator->matches.n_item > 0; /* matches the whole run on its own track */
+    return (Block){.evaluator = evaluator,
+                   .manner = {.step_factor = evaluator->manner.step_factor,
+                              .integrator = CZ_INTEGRATOR_ZHAI,
+                              .track = is_fit ? CZ_TRACK_USE_OWN : CZ_TRACK_USE_SEARCH,
+                              .brief = true}};
+}
+
 CzStatus cz_evaluator_search(const CzEvaluator *evaluator, int n_point, const double *x,
                              CzEvaluation *evaluation, double *detail, CzError *error) {
-    const bool is_fit = evaluator->matches.n_item > 0; /* matches the whole run on its own track */
-    const Block settings = {.evaluator = evaluator,
-                            .manner = {.step_factor = evaluator->manner.step_factor,
-                                       .integrator = CZ_INTEGRATOR_ZHAI,
-                                       .track = is_fit ? CZ_TRACK_USE_OWN : CZ_TRACK_USE_SEARCH,
-                                       .brief = true}};
+    const Block settings = search_settings(evaluator);
     return evaluate_all(&settings, n_point, x, evaluation, detail, error);
+}
+
+CzStatus cz_evaluator_search_some(const CzEvaluator *evaluator, const bool *some, int n_point,
+                                  const double *x, CzEvaluation *evaluation, double *detail,
+                                  CzError *error) {
+    Block settings = search_settings(evaluator);
+    settings.some = some;
+    settings.keep = true;
+    return evaluate_all(&settings, n_point, x, evaluation, detail, error);
+}
+
+CzStatus cz_evaluator_search_rest(const CzEvaluator *evaluator, const bool *some, const double *x,
+                                  CzEvaluation *evaluation, double *detail, CzError *error) {
+    Block settings = search_settings(evaluator);
+    CzEvaluation begun = *evaluation;
+    settings.some = some;
+    settings.begun = &begun;
+    const CzStatus status = evaluate_all(&settings, 1, x, evaluation, detail, error);
+    cz_evaluation_free(&begun);
+    return status;
 }
 
 CzStatus cz_evaluator_again(const CzEvaluator *evaluator, const CzManner *manner, const double *x,

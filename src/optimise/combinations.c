@@ -13,7 +13,8 @@ static long least_violated(const CzSearch *search, bool on_grid) {
     long least = -1;
     for (long i = 0; i < search->n_record; i++) {
         const CzRecord *record = &search->record[i];
-        if (!isnan(record->objective) && !record->is_barred && (record->on_grid || !on_grid) &&
+        if (!isnan(record->objective) && !record->is_barred && !record->is_partial &&
+            (record->on_grid || !on_grid) &&
             (least < 0 || record->violation < search->record[least].violation))
             least = i;
     }
@@ -159,14 +160,34 @@ CzStatus cz_combinations(CzEvaluator *evaluator, const CzOptimiseOptions *option
                          CzCombinations *combinations, CzError *error) {
     const int n = cz_evaluator_n_combination(evaluator);
     *combinations = (CzCombinations){0};
-    combinations->subspace =
-        cz_arena_allocate(&combinations->arena, (size_t)n + 1, sizeof *combinations->subspace);
+    combinations->subspace = cz_arena_allocate(
+        &combinations->arena, (size_t)n + 1 + CZ_MOST_FURTHER, sizeof *combinations->subspace);
     if (combinations->subspace == NULL)
         return cz_no_memory(error, "the search");
     CZ_TRY(cz_replay_begin(&combinations->replay, evaluator, options->journal, error));
     if (n > 1)
         return search_choices(n, options, combinations, error);
     return begin(combinations, 0, options->start, options->evaluations, options, error);
+}
+
+CzStatus cz_combinations_go_on(CzCombinations *combinations, const double *x, long evaluations,
+                               const CzRequired *required, const CzOptimiseOptions *options,
+                               CzError *error) {
+    CzEvaluator *evaluator = combinations->replay.evaluator;
+    const size_t size = (size_t)cz_evaluator_n_variable(evaluator) * sizeof *x;
+    const int n = cz_evaluator_n_combination(evaluator);
+    double *made = cz_arena_numbers(&combinations->arena, size / sizeof *x);
+    if (made == NULL)
+        return cz_no_memory(error, "a search");
+    int own = 0;
+    for (int i = 0; i < n; i++) { /* the choices of the design */
+        memcpy(made, x, size);
+        cz_evaluator_set_combination(evaluator, i, made);
+        if (memcmp(made, x, size) == 0)
+            own = i;
+    }
+    combinations->replay.required = required;
+    return begin(combinations, own, x, evaluations, options, error);
 }
 
 void cz_combinations_free(CzCombinations *combinations) {
@@ -192,7 +213,7 @@ void cz_combinations_history(const CzCombinations *combinations, int n_variable,
             cz_subspace_expand(subspace, cz_search_x(&subspace->search, i), x);
             *trial++ = (CzTrial){.objective = record->objective,
                                  .violation = record->violation,
-                                 .feasible = record->violation <= 0,
+                                 .feasible = record->violation <= 0 && !record->is_partial,
                                  .phase = record->phase};
         }
     }

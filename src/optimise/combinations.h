@@ -19,6 +19,16 @@ typedef struct CzCombinations {
  * CZ_STATUS_NO_MEMORY. The caller frees the combinations in any case. */
 CZ_MUST_CHECK CzStatus cz_combinations(CzEvaluator *evaluator, const CzOptimiseOptions *options,
                                        CzCombinations *combinations, CzError *error);
+
+enum { CZ_MOST_FURTHER = 1 };
+
+/* Searches once more with the choices of a design (n_variable), from it, with at most this many
+ * evaluations; no more than CZ_MOST_FURTHER times. `required` is borrowed until the end. Statuses
+ * as above. */
+CZ_MUST_CHECK CzStatus cz_combinations_go_on(CzCombinations *combinations, const double *x,
+                                             long evaluations, const CzRequired *required,
+                                             const CzOptimiseOptions *options, CzError *error);
+
 void cz_combinations_free(CzCombinations *combinations);
 
 /* Number of designs that all searches evaluated, and the designs in order: trial (n), x (n x

@@ -7,6 +7,7 @@
 #include "optimise/combinations.h"
 #include "optimise/nlopt_adapter.h"
 #include "optimise/outcome.h"
+#include "optimise/verified.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,6 +16,7 @@
 
 const char *cz_outcome_text(CzOutcomeStatus status) {
     static const char *const texts[] = {[CZ_OUTCOME_FEASIBLE] = "feasible",
+                                        [CZ_OUTCOME_UNVERIFIED] = "unverified",
                                         [CZ_OUTCOME_INFEASIBLE] = "infeasible",
                                         [CZ_OUTCOME_INTERRUPTED] = "interrupted"};
     return texts[status];
@@ -195,34 +197,62 @@ static void write_end(const CzCombinations *combinations, long limit, const CzOu
         snprintf(text, room, "no further improvement");
 }
 
-static void conclude(const CzCombinations *combinations, long limit, CzOutcome *outcome) {
+/* Writes the reason why the searches ended, and what is to be known about the best design. */
+static void write_why(const CzCombinations *combinations, long limit, CzOutcome *outcome) {
     const CzSubspace *chosen = &combinations->subspace[combinations->chosen];
-    const CzSearch *last = &combinations->subspace[combinations->n - 1].search;
     char end[sizeof outcome->why_stopped];
-    const bool feasible = outcome->best_evaluation.status == CZ_OK &&
-                          outcome->best_evaluation.violation <= 0 &&
-                          isfinite(outcome->best_evaluation.objective);
-    outcome->status = last->status == CZ_STATUS_INTERRUPTED ? CZ_OUTCOME_INTERRUPTED
-                      : feasible                            ? CZ_OUTCOME_FEASIBLE
-                                                            : CZ_OUTCOME_INFEASIBLE;
     write_end(combinations, limit, outcome, sizeof end, end);
     snprintf(outcome->why_stopped, sizeof outcome->why_stopped, "%.100s%s", end,
              is_between_steps(chosen, outcome) ? "; the best design is between catalogue increments"
                                                : "");
 }
 
-static CzStatus fill_outcome(CzEvaluator *evaluator, const CzCombinations *combinations,
+static void conclude(const CzCombinations *combinations, long limit, CzOutcome *outcome) {
+    const CzSearch *last = &combinations->subspace[combinations->n - 1].search;
+    const bool feasible = outcome->best_evaluation.status == CZ_OK &&
+                          outcome->best_evaluation.violation <= 0 &&
+                          isfinite(outcome->best_evaluation.objective);
+    outcome->status = last->status == CZ_STATUS_INTERRUPTED ? CZ_OUTCOME_INTERRUPTED
+                      : feasible                            ? CZ_OUTCOME_FEASIBLE
+                                                            : CZ_OUTCOME_INFEASIBLE;
+    write_why(combinations, limit, outcome);
+}
+
+/* Writes the reason again, with the designs that were not verified. */
+static void conclude_verification(const CzCombinations *combinations, long limit,
+                                  CzOutcome *outcome) {
+    if (outcome->status == CZ_OUTCOME_INTERRUPTED) {
+        snprintf(outcome->why_stopped, sizeof outcome->why_stopped,
+                 "interrupted during the verification");
+        return;
+    }
+    write_why(combinations, limit, outcome);
+    const size_t n = strlen(outcome->why_stopped);
+    const bool is_found = outcome->status == CZ_OUTCOME_FEASIBLE;
+    char designs[60];
+    snprintf(designs, sizeof designs, outcome->n_rejected == 1 ? "1 design" : "%d designs",
+             outcome->n_rejected);
+    snprintf(outcome->why_stopped + n, sizeof outcome->why_stopped - n,
+             is_found ? "; %s with a better objective not verified" : "; %s not verified", designs);
+}
+
+static CzStatus fill_outcome(CzEvaluator *evaluator, CzCombinations *combinations,
                              const CzOptimiseOptions *options, CzOutcome *outcome, CzError *error) {
     const CzSubspace *chosen = &combinations->subspace[combinations->chosen];
     if (options->start != NULL)
         memcpy(outcome->start, options->start, (size_t)outcome->n_variable * sizeof(double));
-    cz_combinations_history(combinations, outcome->n_variable, outcome->trial, outcome->trial_x);
+    CZ_TRY(cz_outcome_take_history(outcome, combinations, error));
     CZ_TRY(confirm(evaluator, chosen, outcome, error));
     if (cz_evaluator_is_fit(evaluator))
         CZ_TRY(
             cz_alternatives_find(chosen, cz_combinations_record(&chosen->search), outcome, error));
     conclude(combinations, options->evaluations, outcome);
     CZ_TRY(cz_outcome_verify(evaluator, options, outcome, error));
+    CZ_TRY(cz_verified_find(evaluator, combinations, options, outcome, error));
+    if (outcome->n_rejected > 0) {
+        CZ_TRY(cz_outcome_take_history(outcome, combinations, error));
+        conclude_verification(combinations, options->evaluations, outcome);
+    }
     CZ_TRY(cz_relaxation_find(evaluator, options->stop, outcome, error));
     CZ_TRY(cz_sensitivity_take(evaluator, options->stop, outcome, error));
     return cz_stationarity_find(evaluator, outcome, error);
@@ -272,8 +302,7 @@ CzStatus cz_optimise(CzEvaluator *evaluator, const CzOptimiseOptions *given, CzO
     CzStatus status = cz_combinations(evaluator, &options, &combinations, error);
     cz_evaluator_set_stop(evaluator, NULL); /* the best design is evaluated in any case */
     if (status == CZ_OK)
-        status =
-            cz_outcome_create(evaluator, cz_combinations_n_record(&combinations), outcome, error);
+        status = cz_outcome_create(evaluator, 0, outcome, error);
     if (status == CZ_OK)
         status = fill_outcome(evaluator, &combinations, &options, *outcome, error);
     if (status == CZ_OK)

@@ -2,6 +2,7 @@
 #include "optimise/outcome.h"
 #include "base/error.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,6 +19,10 @@ double *cz_outcome_numbers(CzOutcome *outcome, size_t n) {
 
 CzMultiplier *cz_outcome_multipliers(CzOutcome *outcome, size_t n) {
     return cz_arena_allocate(&((Owned *)outcome)->arena, n + 1, sizeof(CzMultiplier));
+}
+
+CzRejected *cz_outcome_rejected(CzOutcome *outcome, size_t n) {
+    return cz_arena_allocate(&((Owned *)outcome)->arena, n, sizeof(CzRejected));
 }
 
 CzStatus cz_outcome_create(const CzEvaluator *evaluator, long n_trial, CzOutcome **outcome,
@@ -71,17 +76,62 @@ void cz_outcome_mark_bounds(const CzEvaluator *evaluator, CzOutcome *outcome) {
     }
 }
 
-CzStatus cz_outcome_verify(CzEvaluator *evaluator, const CzOptimiseOptions *options,
-                           CzOutcome *outcome, CzError *error) {
-    if (outcome->status != CZ_OUTCOME_FEASIBLE || options->verify_methods == 0)
-        return CZ_OK;
+CzStatus cz_outcome_take_history(CzOutcome *outcome, const CzCombinations *combinations,
+                                 CzError *error) {
+    CzArena *arena = &((Owned *)outcome)->arena;
+    const CzSelection *selection = &combinations->replay.selection;
+    const size_t n = (size_t)cz_combinations_n_record(combinations);
+    const size_t n_scenario = selection->is_on ? (size_t)selection->n_scenario : 0;
+    outcome->n_trial = outcome->n_evaluation = (long)n;
+    outcome->trial = cz_arena_allocate(arena, n + 1, sizeof *outcome->trial);
+    outcome->trial_x = cz_arena_numbers(arena, n * (size_t)outcome->n_variable);
+    outcome->scenario = cz_arena_allocate(arena, n_scenario + 1, sizeof *outcome->scenario);
+    if (arena->out_of_memory)
+        return cz_no_memory(error, "the outcome");
+    cz_combinations_history(combinations, outcome->n_variable, outcome->trial, outcome->trial_x);
+    outcome->n_whole = selection->n_whole;
+    outcome->n_scenario = 0;
+    for (size_t s = 0; s < n_scenario; s++)
+        if (selection->has_run[s])
+            outcome->scenario[outcome->n_scenario++] =
+                (CzScenarioUse){.name = cz_evaluator_scenario_name(selection->evaluator, (int)s),
+                                .n_run = selection->n_run[s],
+                                .is_in_set = selection->works[s]};
+    return CZ_OK;
+}
+
+bool cz_is_on_increments(const CzEvaluator *evaluator, const double *x) {
+    for (int i = 0; i < cz_evaluator_n_variable(evaluator); i++) {
+        const double step = cz_evaluator_variable(evaluator, i)->increment;
+        if (step > 0 && round(x[i] / step) * step != x[i])
+            return false;
+    }
+    return true;
+}
+
+CzStatus cz_outcome_verify_design(CzEvaluator *evaluator, const CzOptimiseOptions *options,
+                                  const double *x, const CzEvaluation *whole,
+                                  CzVerification **verification, CzError *error) {
     CzVerifyOptions chosen = cz_verify_options_default();
     chosen.methods = options->verify_methods;
     chosen.solver_step = 2.0;
     chosen.until_settled = true;
     chosen.stop = options->stop;
-    const CzStatus status = cz_verify(evaluator, outcome->best, &outcome->best_evaluation, &chosen,
-                                      &outcome->verification, error);
+    return cz_verify(evaluator, x, whole, &chosen, verification, error);
+}
+
+CzStatus cz_outcome_verify(CzEvaluator *evaluator, const CzOptimiseOptions *options,
+                           CzOutcome *outcome, CzError *error) {
+    const bool passes =
+        outcome->status == CZ_OUTCOME_FEASIBLE || outcome->status == CZ_OUTCOME_UNVERIFIED;
+    if (!passes || options->verify_methods == 0)
+        return CZ_OK;
+    const CzStatus status =
+        cz_outcome_verify_design(evaluator, options, outcome->best, &outcome->best_evaluation,
+                                 &outcome->verification, error);
+    if (status == CZ_OK)
+        outcome->status = outcome->verification->verdict == CZ_VERDICT_PASS ? CZ_OUTCOME_FEASIBLE
+                                                                            : CZ_OUTCOME_UNVERIFIED;
     if (status != CZ_STATUS_INTERRUPTED)
         return status;
     outcome->status = CZ_OUTCOME_INTERRUPTED;

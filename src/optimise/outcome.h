@@ -2,7 +2,7 @@
 #ifndef CZ_OPTIMISE_OUTCOME_H
 #define CZ_OPTIMISE_OUTCOME_H
 
-#include "optimise/subspace.h"
+#include "optimise/combinations.h"
 
 /* Creates an outcome with room for n_trial trials; start and best are those of the evaluator.
  * Status: CZ_OK, CZ_STATUS_NO_MEMORY. */
@@ -19,8 +19,26 @@ CzStatus cz_outcome_pass_on(CzOutcome *made, CzStatus status, CzOutcome **outcom
 /* Fills `at_bound` from `best`. */
 void cz_outcome_mark_bounds(const CzEvaluator *evaluator, CzOutcome *outcome);
 
-/* Verifies a design that passes. After a signal it remains unverified, and the outcome is
- * interrupted. */
+/* Memory of the outcome for n designs that are not verified; NULL when there is none. */
+CzRejected *cz_outcome_rejected(CzOutcome *outcome, size_t n);
+
+/* Fills the history and the runs by scenario from the searches so far. Status: CZ_OK,
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_outcome_take_history(CzOutcome *outcome,
+                                               const CzCombinations *combinations, CzError *error);
+
+/* Whether every variable of a design (n_variable) is on its catalogue increment. */
+bool cz_is_on_increments(const CzEvaluator *evaluator, const double *x);
+
+/* Verifies a design with the methods of a search; `whole` is its evaluation with the runs kept,
+ * NULL when it has to be made. Statuses: those of cz_verify. */
+CZ_MUST_CHECK CzStatus cz_outcome_verify_design(CzEvaluator *evaluator,
+                                                const CzOptimiseOptions *options, const double *x,
+                                                const CzEvaluation *whole,
+                                                CzVerification **verification, CzError *error);
+
+/* Verifies the best design when it passes, and sets the status by it. After a signal it remains
+ * unverified, and the outcome is interrupted. */
 CZ_MUST_CHECK CzStatus cz_outcome_verify(CzEvaluator *evaluator, const CzOptimiseOptions *options,
                                          CzOutcome *outcome, CzError *error);
 

@@ -13,7 +13,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "evaluate/evaluator.h"
-#include "optimise/replay.h"
+#include "optimise/outcome.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -128,20 +128,6 @@ static CzStatus prepare(Front *front, CzError *error) {
 
 /* ---- one point ------------------------------------------------------------------------------- */
 
-static bool is_between_increments(const CzEvaluator *evaluator, const double *x) {
-    for (int i = 0; i < cz_evaluator_n_variable(evaluator); i++) {
-        const double step = cz_evaluator_variable(evaluator, i)->increment;
-        if (step > 0 && round(x[i] / step) * step != x[i])
-            return true;
-    }
-    return false;
-}
-
-static bool is_verified(const CzOutcome *outcome, const CzOptimiseOptions *options) {
-    return options->verify_methods == 0 ||
-           (outcome->verification != NULL && outcome->verification->verdict == CZ_VERDICT_PASS);
-}
-
 /* Takes the design of an outcome, with both objectives from full evaluations. */
 static CzStatus take(const Front *front, const CzOutcome *outcome, CzParetoPoint *point,
                      CzError *error) {
@@ -149,12 +135,10 @@ static CzStatus take(const Front *front, const CzOutcome *outcome, CzParetoPoint
     const CzEvaluation *best = &outcome->best_evaluation;
     point->n_evaluation = outcome->n_evaluation;
     snprintf(point->why, sizeof point->why, "%s", outcome->why_stopped);
-    point->state =
-        best->violation > 0 || best->status != CZ_OK ? CZ_PARETO_INFEASIBLE
-        : outcome->status == CZ_OUTCOME_FEASIBLE && is_verified(outcome, &front->options->search)
-            ? CZ_PARETO_VERIFIED
-            : CZ_PARETO_NOT_VERIFIED;
-    if (point->state == CZ_PARETO_NOT_VERIFIED && outcome->status == CZ_OUTCOME_FEASIBLE)
+    point->state = best->violation > 0 || best->status != CZ_OK ? CZ_PARETO_INFEASIBLE
+                   : outcome->status == CZ_OUTCOME_FEASIBLE     ? CZ_PARETO_VERIFIED
+                                                                : CZ_PARETO_NOT_VERIFIED;
+    if (outcome->status == CZ_OUTCOME_UNVERIFIED)
         snprintf(point->why, sizeof point->why, "the verification changes results too much");
     if (best->status != CZ_OK) {
         snprintf(point->why, sizeof point->why, "%s", best->failure);
@@ -166,7 +150,7 @@ static CzStatus take(const Front *front, const CzOutcome *outcome, CzParetoPoint
     if (point->x == NULL)
         return cz_no_memory(error, "a point");
     memcpy(point->x, outcome->best, n * sizeof *point->x);
-    point->between_increments = is_between_increments(front->pareto->evaluator, point->x);
+    point->between_increments = !cz_is_on_increments(front->pareto->evaluator, point->x);
     for (int k = 0; k < 2; k++) {
         CzEvaluation evaluation;
         CZ_TRY(cz_evaluate(front->owned->measure[k], 1, point->x, false, &evaluation, error));

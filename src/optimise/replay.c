@@ -19,6 +19,7 @@ CzStatus cz_replay_begin(CzReplay *replay, CzEvaluator *evaluator, const CzJourn
                          CzError *error) {
     *replay = (CzReplay){.evaluator = evaluator, .journal = journal};
     replay->earlier.arena = &replay->arena;
+    CZ_TRY(cz_selection_begin(&replay->selection, evaluator, error));
     if (journal == NULL)
         return CZ_OK;
     const size_t size = design_size(replay);
@@ -35,6 +36,7 @@ CzStatus cz_replay_begin(CzReplay *replay, CzEvaluator *evaluator, const CzJourn
 }
 
 void cz_replay_free(CzReplay *replay) {
+    cz_selection_free(&replay->selection);
     cz_arena_free(&replay->arena);
 }
 
@@ -49,6 +51,7 @@ CzStatus cz_batch_create(const CzReplay *replay, int n, bool with_detail, CzBatc
         cz_arena_numbers(&batch->arena, room * (size_t)cz_evaluator_n_constraint(evaluator));
     if (n_detail > 0 && (with_detail || replay->journal != NULL)) /* a journal has all of them */
         batch->detail = cz_arena_numbers(&batch->arena, room * n_detail);
+    batch->is_whole = cz_arena_allocate(&batch->arena, room, sizeof *batch->is_whole);
     batch->run = cz_arena_allocate(&batch->arena, room, sizeof *batch->run);
     batch->evaluation = cz_arena_allocate(&batch->arena, room, sizeof *batch->evaluation);
     return batch->arena.out_of_memory ? cz_no_memory(error, "the designs") : CZ_OK;
@@ -75,6 +78,14 @@ static CzAnswer answer_at(const CzReplay *replay, const CzBatch *batch, int desi
                       : NULL};
 }
 
+/* Whether an answer of a search with a lower limit has the scenarios of the working set, which may
+ * be another one here. A design that failed has no values that would tell. */
+static bool is_usable(const CzReplay *replay, const CzAnswer *answer) {
+    return !replay->selection.is_on ||
+           (!isnan(answer->objective) &&
+            cz_selection_is_of_set(&replay->selection, answer->constraint));
+}
+
 /* Finds the answer of the journal to a design; NULL where there is none yet. */
 static CzStatus find(CzReplay *replay, const double *x, const CzAnswer **answer, CzError *error) {
     const CzJournal *journal = replay->journal;
@@ -82,7 +93,7 @@ static CzStatus find(CzReplay *replay, const double *x, const CzAnswer **answer,
     if (journal == NULL)
         return CZ_OK;
     const int number = cz_index_find(&replay->earlier, (const char *)x, design_size(replay));
-    if (number >= 0)
+    if (number >= 0 && is_usable(replay, &journal->answer[number]))
         *answer = &journal->answer[number];
     else if (replay->next < journal->n_answer)
         *answer = &journal->answer[replay->next++];
@@ -96,20 +107,29 @@ static CzStatus find(CzReplay *replay, const double *x, const CzAnswer **answer,
 
 /* Writes an answer into the batch. */
 static void take(const CzReplay *replay, const CzBatch *batch, int design, const CzAnswer *answer) {
-    const CzEvaluator *evaluator = replay->evaluator;
-    const size_t m = (size_t)cz_evaluator_n_constraint(evaluator);
-    const size_t n_detail = (size_t)cz_evaluator_n_detail(evaluator);
+    const CzAnswer to = answer_at(replay, batch, design);
     batch->objective[design] = answer->objective;
-    memcpy(batch->constraint + (size_t)design * m, answer->constraint, m * sizeof(double));
-    if (batch->detail != NULL)
-        memcpy(batch->detail + (size_t)design * n_detail, answer->detail,
-               n_detail * sizeof(double));
+    memcpy((double *)to.constraint, answer->constraint,
+           (size_t)to.n_constraint * sizeof *to.constraint);
+    if (to.detail != NULL)
+        memcpy((double *)to.detail, answer->detail, (size_t)to.n_detail * sizeof *to.detail);
 }
 
-/* Runs the designs that have no answer, all of them side by side. */
+/* Whether an answer of the journal has the values of all scenarios, as that of a design that failed
+ * in the working set does not. */
+static bool is_answer_whole(const CzReplay *replay, const CzAnswer *answer) {
+    for (int j = 0; j < answer->n_constraint && replay->selection.is_on; j++)
+        if (isnan(answer->constraint[j]))
+            return false;
+    return true;
+}
+
+/* Runs the designs that have no answer, all of them side by side, in the working set. */
 static CzStatus run(CzReplay *replay, CzBatch *batch, int n, CzError *error) {
+    const CzSelection *selection = &replay->selection;
     const size_t n_variable = (size_t)cz_evaluator_n_variable(replay->evaluator);
     const size_t n_detail = (size_t)cz_evaluator_n_detail(replay->evaluator);
+    const bool is_whole = cz_selection_is_whole(selection);
     double *x = cz_arena_numbers(&batch->arena, (size_t)n * n_variable);
     double *detail =
         batch->detail != NULL ? cz_arena_numbers(&batch->arena, (size_t)n * n_detail) : NULL;
@@ -118,15 +138,38 @@ static CzStatus run(CzReplay *replay, CzBatch *batch, int n, CzError *error) {
     for (int i = 0; i < n; i++)
         memcpy(x + (size_t)i * n_variable, batch->x + (size_t)batch->run[i] * n_variable,
                n_variable * sizeof *x);
-    CZ_TRY(cz_evaluator_search(replay->evaluator, n, x, batch->evaluation, detail, error));
+    CZ_TRY(is_whole ? cz_evaluator_search(replay->evaluator, n, x, batch->evaluation, detail, error)
+                    : cz_evaluator_search_some(replay->evaluator, selection->works, n, x,
+                                               batch->evaluation, detail, error));
     batch->n_new = n;
     for (int i = 0; i < n; i++) {
         const CzAnswer answer = {.objective = batch->evaluation[i].objective,
                                  .constraint = batch->evaluation[i].constraint,
                                  .detail = detail != NULL ? detail + (size_t)i * n_detail : NULL};
+        cz_selection_blank(selection, batch->evaluation[i].constraint, (double *)answer.detail);
         take(replay, batch, batch->run[i], &answer);
+        batch->is_whole[batch->run[i]] = is_whole;
     }
     return CZ_OK;
+}
+
+CzStatus cz_replay_complete(CzReplay *replay, CzBatch *batch, int design, CzError *error) {
+    const CzAnswer at = answer_at(replay, batch, design);
+    for (int i = 0; i < batch->n_new; i++) {
+        CzEvaluation *evaluation = &batch->evaluation[i];
+        if (batch->run[i] != design)
+            continue;
+        CZ_TRY(cz_evaluator_search_rest(replay->evaluator, replay->selection.works, at.x,
+                                        evaluation, (double *)at.detail, error));
+        batch->objective[design] = evaluation->objective;
+        memcpy((double *)at.constraint, evaluation->constraint,
+               (size_t)at.n_constraint * sizeof *at.constraint);
+        batch->is_whole[design] = true;
+        return CZ_OK;
+    }
+    return cz_fail(error, CZ_STATUS_INPUT,
+                   "evaluation %ld of the journal lacks scenarios that the search asks for",
+                   replay->next);
 }
 
 CzStatus cz_replay_evaluate(CzReplay *replay, CzBatch *batch, CzError *error) {
@@ -134,10 +177,12 @@ CzStatus cz_replay_evaluate(CzReplay *replay, CzBatch *batch, CzError *error) {
     for (int i = 0; i < batch->n; i++) {
         const CzAnswer *answer;
         CZ_TRY(find(replay, answer_at(replay, batch, i).x, &answer, error));
-        if (answer != NULL)
+        if (answer != NULL) {
             take(replay, batch, i, answer);
-        else
+            batch->is_whole[i] = is_answer_whole(replay, answer);
+        } else {
             batch->run[n_open++] = i;
+        }
     }
     CZ_TRY(n_open > 0 ? run(replay, batch, n_open, error) : CZ_OK);
     replay->n_evaluation += batch->n;
@@ -146,7 +191,7 @@ CzStatus cz_replay_evaluate(CzReplay *replay, CzBatch *batch, CzError *error) {
 
 void cz_replay_note(CzReplay *replay, const CzRecord *record, const double *x) {
     if (replay->journal == NULL || isnan(record->objective) || record->is_barred ||
-        (replay->has_best && !cz_record_is_better(record, &replay->best)))
+        record->is_partial || (replay->has_best && !cz_record_is_better(record, &replay->best)))
         return;
     memcpy(replay->best_x, x, design_size(replay));
     replay->best = *record;

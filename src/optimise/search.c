@@ -109,6 +109,15 @@ void cz_search_round(const CzSearch *search, const double *x, double *rounded) {
     }
 }
 
+bool cz_search_is_on_grid(const CzSearch *search, const double *x) {
+    bool is_on_grid = true;
+    for (int i = 0; i < search->function->n_variable; i++) {
+        const double step = search->function->step[i];
+        is_on_grid &= !(step > 0) || round(x[i] / step) * step == x[i];
+    }
+    return is_on_grid;
+}
+
 bool cz_search_has_steps(const CzSearch *search) {
     for (int i = 0; i < search->function->n_variable; i++)
         if (search->function->step[i] > 0)
@@ -188,11 +197,7 @@ static void add_record(CzSearch *search, const double *x, const CzRecord *given)
     const long record = search->n_record++;
     CzRecord *written = &search->record[record];
     *written = *given;
-    written->on_grid = true;
-    for (int i = 0; i < n; i++) {
-        const double step = search->function->step[i];
-        written->on_grid &= !(step > 0) || round(x[i] / step) * step == x[i];
-    }
+    written->on_grid = cz_search_is_on_grid(search, x);
     if (isnan(written->objective))
         return;
     if (cz_search_is_better(search, record, search->best)) {
@@ -301,13 +306,14 @@ CzRecord cz_search_judge(const CzFunction *function, const char *phase, double o
 }
 
 /* Records the values of one design and makes them finite and smooth for an algorithm. */
-static void record_values(CzSearch *search, const char *phase, const double *x, double *objective,
-                          double *constraint, double *detail) {
+static void record_values(CzSearch *search, const char *phase, bool is_partial, const double *x,
+                          double *objective, double *constraint, double *detail) {
     const int m = search->function->n_constraint;
     const int n_detail = detail != NULL ? cz_search_n_detail(search) : 0;
     if (n_detail > 0 && search->function->n_detail == 0)
         memcpy(detail, constraint, (size_t)m * sizeof *detail);
-    const CzRecord record = cz_search_judge(search->function, phase, *objective, constraint);
+    CzRecord record = cz_search_judge(search->function, phase, *objective, constraint);
+    record.is_partial = is_partial;
     add_record(search, x, &record);
     if (isnan(record.objective)) {
         const double ramp = 1 + distance_from_best(search, x);
@@ -355,7 +361,8 @@ bool cz_search_evaluate(CzSearch *search, const char *phase, int n, const double
         return false;
     }
     for (int i = 0; i < n; i++) {
-        record_values(search, phase, x + i * function->n_variable, &objective[i],
+        const bool is_partial = function->is_partial != NULL && function->is_partial[i];
+        record_values(search, phase, is_partial, x + i * function->n_variable, &objective[i],
                       constraint + i * function->n_constraint,
                       detail != NULL ? detail + i * cz_search_n_detail(search) : NULL);
         report_progress(search, phase);

@@ -35,6 +35,8 @@ typedef struct CzFunction {
     CzStatus (*evaluate)(void *data, int n_point, const double *x, double *objective,
                          double *constraint, double *detail, CzError *error);
     void *data;
+    const bool *is_partial; /* designs of the last evaluation that were not run in all scenarios;
+                               their details may be NaN; NULL for none */
 } CzFunction;
 
 /* Kind of a constraint. */
@@ -54,9 +56,11 @@ typedef struct CzRecord {
     double penalty;   /* sum of the compressed positive constraints, for a fit with the sum of
                          squares: infeasible designs are ranked by it */
     const char *phase;
-    bool on_grid;   /* every variable is on its catalogue increment */
-    bool is_barred; /* a rule of problem files is violated */
-    double missed;  /* largest positive constraint that is not a yes or no; 0 when there is none */
+    bool on_grid;    /* every variable is on its catalogue increment */
+    bool is_barred;  /* a rule of problem files is violated */
+    double missed;   /* largest positive constraint that is not a yes or no; 0 when there is none */
+    bool is_partial; /* not run in all scenarios: objective, violation and penalty are lower bounds,
+                        and a better design is known */
 } CzRecord;
 
 typedef struct CzSearch {
@@ -155,6 +159,9 @@ bool cz_search_is_better(const CzSearch *search, long record, long other);
 
 /* Record with exactly these variables, -1 when there is none. */
 long cz_search_find(const CzSearch *search, const double *x);
+
+/* Whether every variable of a design is on its catalogue increment. */
+bool cz_search_is_on_grid(const CzSearch *search, const double *x);
 
 /* Nearest design on the catalogue increments within the bounds. */
 void cz_search_round(const CzSearch *search, const double *x, double *rounded);

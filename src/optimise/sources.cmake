@@ -25,10 +25,13 @@ set(CZ_SOURCES_optimise
     robust_cases.c
     sample.c
     search.c
+    selection.c
     sensitivity.c
     snap.c
     stationarity.c
     strategy.c
     subspace.c
     surface.c
+    surface_program.c
+    verified.c
 )

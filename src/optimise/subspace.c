@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "evaluate/evaluator.h"
 
+#include <math.h>
 #include <string.h>
 
 void cz_subspace_expand(const CzSubspace *subspace, const double *number, double *x) {
@@ -11,31 +12,167 @@ void cz_subspace_expand(const CzSubspace *subspace, const double *number, double
         x[subspace->number[i]] = number[i];
 }
 
+/* Adds the required margins; a design that was not verified counts as one that fails a yes or no.
+ */
+static void require(const CzSubspace *subspace, const double *x, double *constraint) {
+    const double failed_flag = 0.01;
+    const CzRequired *required = subspace->replay->required;
+    const int m = subspace->function.n_constraint;
+    for (int j = 0; j < m; j++)
+        constraint[j] += required->margin[subspace->constraint[j]];
+    for (int i = 0; i < required->n; i++)
+        if (m > 0 && memcmp(required->x[i], x, (size_t)subspace->n_all * sizeof *x) == 0)
+            constraint[m - 1] = fmax(constraint[m - 1], failed_flag);
+}
+
+/* Adds the required margins to the details of a design. */
+static void require_details(const CzSubspace *subspace, double *detail) {
+    const CzRequired *required = subspace->replay->required;
+    for (int j = 0; j < cz_evaluator_n_constraint(subspace->evaluator); j++)
+        for (int i = cz_evaluator_n_detail_of(subspace->evaluator, j); i > 0; i--)
+            *detail++ += required->margin[j];
+}
+
+/* Values of a design of a batch for the search; the record says how they rank. */
+static CzRecord values_of(const CzSubspace *subspace, const CzBatch *batch, int design,
+                          double *constraint) {
+    const CzSelection *selection = &subspace->replay->selection;
+    const int m_all = cz_evaluator_n_constraint(subspace->evaluator);
+    const double *known = batch->constraint + design * m_all;
+    for (int j = 0; j < subspace->function.n_constraint; j++)
+        constraint[j] = isnan(batch->objective[design])
+                            ? known[subspace->constraint[j]]
+                            : cz_selection_value(selection, known, subspace->constraint[j]);
+    if (subspace->replay->required != NULL)
+        require(subspace, batch->x + design * subspace->n_all, constraint);
+    CzRecord record = cz_search_judge(&subspace->function, subspace->search.phase,
+                                      batch->objective[design], constraint);
+    record.is_partial = !batch->is_whole[design];
+    return record;
+}
+
+/* How designs are compared: a search continues from the best of all and ends at the best on the
+ * increments, or at that with the smallest violation. */
+typedef enum Rank { BEST, BEST_ON_GRID, LEAST_VIOLATED, N_RANK } Rank;
+
+static bool is_ranked_before(Rank rank, const CzRecord *one, const CzRecord *other) {
+    if (other == NULL || isnan(one->objective))
+        return !isnan(one->objective) && (rank != BEST_ON_GRID || one->on_grid);
+    if (rank == LEAST_VIOLATED)
+        return other->violation > 0 && one->violation < other->violation;
+    return (rank == BEST || one->on_grid) && cz_record_is_better(one, other);
+}
+
+/* The first of the designs that are run in all scenarios so far; NULL when there is none. */
+static const CzRecord *first_of_search(const CzSearch *search, Rank rank) {
+    const long number = rank == BEST_ON_GRID ? search->best_on_grid : search->best;
+    const CzRecord *first = number >= 0 ? &search->record[number] : NULL;
+    for (long i = 0; i < search->n_record && rank == LEAST_VIOLATED; i++)
+        if (!search->record[i].is_partial && is_ranked_before(rank, &search->record[i], first))
+            first = &search->record[i];
+    return first;
+}
+
+/* The first design of a batch that is not run in all scenarios and would be before all that are; -1
+ * for none. */
+static int find_leader(const CzSubspace *subspace, Rank rank, int n, const CzRecord *record) {
+    const CzRecord *first = first_of_search(&subspace->search, rank);
+    int leader = -1;
+    for (int i = 0; i < n; i++)
+        if (!record[i].is_partial && is_ranked_before(rank, &record[i], first))
+            first = &record[i];
+    for (int i = 0; i < n; i++)
+        if (record[i].is_partial && is_ranked_before(rank, &record[i], first))
+            first = &record[leader = i];
+    return leader;
+}
+
+/* Whether a design that did not fail has no objective. */
+static bool is_without_objective(const CzSubspace *subspace, const CzBatch *batch, int design) {
+    const int m = cz_evaluator_n_constraint(subspace->evaluator);
+    for (int j = 0; j < m && isnan(batch->objective[design]); j++)
+        if (!isnan(batch->constraint[design * m + j]))
+            return true;
+    return false;
+}
+
+/* Runs one design in all scenarios. */
+static CzStatus complete(const CzSubspace *subspace, CzBatch *batch, int design, double *constraint,
+                         CzRecord *record, CzError *error) {
+    const bool on_grid = record[design].on_grid;
+    CZ_TRY(cz_replay_complete(subspace->replay, batch, design, error));
+    record[design] =
+        values_of(subspace, batch, design, constraint + design * subspace->function.n_constraint);
+    record[design].on_grid = on_grid;
+    return CZ_OK;
+}
+
+/* Runs the designs of a batch that would be the best so far in all scenarios, one after the other:
+ * most are then not. */
+static CzStatus complete_leaders(const CzSubspace *subspace, CzBatch *batch, double *constraint,
+                                 CzError *error) {
+    const int m = subspace->function.n_constraint;
+    const size_t n_variable = (size_t)subspace->function.n_variable;
+    CzRecord *record = cz_arena_allocate(&batch->arena, (size_t)batch->n, sizeof *record);
+    double *number = cz_arena_numbers(&batch->arena, n_variable);
+    if (record == NULL || number == NULL)
+        return cz_no_memory(error, "the designs");
+    for (int i = 0; i < batch->n; i++) {
+        record[i] = values_of(subspace, batch, i, constraint + i * m);
+        for (size_t k = 0; k < n_variable; k++)
+            number[k] = batch->x[i * subspace->n_all + subspace->number[k]];
+        record[i].on_grid = cz_search_is_on_grid(&subspace->search, number);
+    }
+    for (int i = 0; i < batch->n; i++) /* the objective may have a value in other scenarios */
+        if (record[i].is_partial && is_without_objective(subspace, batch, i))
+            CZ_TRY(complete(subspace, batch, i, constraint, record, error));
+    for (Rank rank = BEST; rank < N_RANK; rank++) {
+        if (rank == LEAST_VIOLATED && !subspace->function.is_minimax)
+            break;
+        for (int leader; (leader = find_leader(subspace, rank, batch->n, record)) >= 0;)
+            CZ_TRY(complete(subspace, batch, leader, constraint, record, error));
+    }
+    return CZ_OK;
+}
+
 /* Evaluates the designs of a batch and returns their values in the constraints of the search. */
-static CzStatus evaluate_batch(const CzSubspace *subspace, CzBatch *batch, double *objective,
+static CzStatus evaluate_batch(CzSubspace *subspace, CzBatch *batch, double *objective,
                                double *constraint, double *detail, CzError *error) {
     CzReplay *replay = subspace->replay;
     const char *phase = subspace->search.phase;
     const int m = subspace->function.n_constraint;
     const int m_all = cz_evaluator_n_constraint(subspace->evaluator);
     CZ_TRY(cz_replay_evaluate(replay, batch, error));
+    if (replay->selection.has_begun)
+        CZ_TRY(complete_leaders(subspace, batch, constraint, error));
     for (int i = 0; i < batch->n; i++) {
         objective[i] = batch->objective[i];
-        for (int j = 0; j < m; j++)
-            constraint[i * m + j] = batch->constraint[i * m_all + subspace->constraint[j]];
-        const CzRecord record =
-            cz_search_judge(&subspace->function, phase, objective[i], constraint + i * m);
+        const CzRecord record = values_of(subspace, batch, i, constraint + i * m);
         cz_replay_note(replay, &record, batch->x + i * subspace->n_all);
     }
+    for (int i = 0; i < batch->n; i++)
+        cz_selection_note(&replay->selection, batch->is_whole[i], batch->objective[i],
+                          batch->constraint + i * m_all);
+    subspace->function.is_partial = NULL;
+    if (replay->selection.is_on) {
+        bool *is_partial = cz_arena_allocate(&replay->arena, (size_t)batch->n, sizeof(bool));
+        if (is_partial == NULL)
+            return cz_no_memory(error, "the designs");
+        for (int i = 0; i < batch->n; i++)
+            is_partial[i] = !batch->is_whole[i];
+        subspace->function.is_partial = is_partial;
+    }
+    const int n_detail = subspace->function.n_detail;
     if (detail != NULL)
-        memcpy(detail, batch->detail,
-               (size_t)batch->n * (size_t)subspace->function.n_detail * sizeof *detail);
+        memcpy(detail, batch->detail, (size_t)batch->n * (size_t)n_detail * sizeof *detail);
+    for (int i = 0; i < batch->n && detail != NULL && replay->required != NULL; i++)
+        require_details(subspace, detail + i * n_detail);
     return cz_replay_keep(replay, phase, batch, error);
 }
 
 static CzStatus evaluate_designs(void *data, int n_point, const double *numbers, double *objective,
                                  double *constraint, double *detail, CzError *error) {
-    const CzSubspace *subspace = data;
+    CzSubspace *subspace = data;
     CzBatch batch;
     CzStatus status = cz_batch_create(subspace->replay, n_point, detail != NULL, &batch, error);
     for (int i = 0; i < n_point && status == CZ_OK; i++)

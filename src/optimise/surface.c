@@ -1,6 +1,5 @@
-/* Linear response surfaces: planes around a base design, and their correction. */
+/* Linear response surfaces: planes around a base design, their correction, and descents on them. */
 #include "optimise/surface.h"
-#include "optimise/linear_program.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,6 +18,7 @@ bool cz_surface_create(CzSurface *surface, CzSearch *search, int most) {
     CzArena *arena = &surface->arena;
     surface->u = cz_arena_numbers(arena, (size_t)n);
     surface->c = cz_arena_numbers(arena, (size_t)m);
+    surface->is_known = cz_arena_allocate(arena, (size_t)m + 1, sizeof *surface->is_known);
     surface->df = cz_arena_numbers(arena, (size_t)n);
     surface->dc = cz_arena_numbers(arena, (size_t)(m * n));
     surface->x = cz_arena_numbers(arena, batch * (size_t)n);
@@ -41,9 +41,16 @@ static bool evaluate(CzSurface *surface, const char *phase, int n_point) {
                               surface->many_c, surface->many_d);
 }
 
-/* The largest detail so far, with detail k of this value where it counts. */
-static double counted_in(double largest, const CzSurface *surface, int k, double c) {
-    return cz_detail_is_activation(surface->search->function, k) ? largest : fmax(largest, c);
+/* Value of a plane at scaled u. */
+static double plane_at(const CzSurface *surface, double base, const double *slope,
+                       const double *u) {
+    for (int i = 0; i < surface->n; i++)
+        base += slope[i] * (u[i] - surface->u[i]);
+    return base;
+}
+
+static double detail_at(const CzSurface *surface, int k, const double *u) {
+    return plane_at(surface, surface->c[k], surface->dc + k * surface->n, u);
 }
 
 /* Objective of point `point` of the last evaluation: where the smallest margin is maximised, that
@@ -55,23 +62,34 @@ static double objective_of(const CzSurface *surface, int point) {
     if (!surface->search->function->is_minimax)
         return surface->many_f[point];
     for (int k = 0; k < surface->m; k++)
-        largest = counted_in(largest, surface, k, c[k]);
+        largest = cz_surface_counted(largest, surface, k, c[k]);
     return isfinite(largest) ? largest : surface->many_f[point];
 }
 
+/* Largest value of a detail that is not known: its scenario did not limit a design yet (ours). */
+static const double largest_unknown = -0.05;
+
 static void set_base(CzSurface *surface, long record, int point, const double *u) {
+    const double *c = surface->many_d + point * surface->m;
+    for (int k = 0; k < surface->m; k++) {
+        surface->is_known[k] = !isnan(c[k]);
+        surface->c[k] =
+            surface->is_known[k] ? c[k] : fmin(detail_at(surface, k, u), largest_unknown);
+    }
     surface->record = record;
     memcpy(surface->u, u, (size_t)surface->n * sizeof *u);
     surface->f = objective_of(surface, point);
-    memcpy(surface->c, surface->many_d + point * surface->m, (size_t)surface->m * sizeof(double));
 }
 
-/* Replaces the slopes of a detail by its secants (a column of many_d), unless it is violated and no
- * variable changes it, as when a stroke is exhausted: the slopes from the designs before lead back.
- */
+/* Replaces the slopes of a detail by its secants (a column of many_d), unless they are not known,
+ * or it is violated and no variable changes it, as when a stroke is exhausted: the slopes from the
+ * designs before lead back. */
 static void renew_slopes(CzSurface *surface, int k) {
     const double flat = 1e-2; /* of a margin over the range of a variable */
     double largest = 0;
+    for (int i = 0; i < surface->n; i++)
+        if (!surface->is_known[k] || isnan(surface->many_d[i * surface->m + k]))
+            return;
     for (int i = 0; i < surface->n; i++)
         largest = fmax(largest, fabs(surface->many_d[i * surface->m + k]));
     if (surface->c[k] > 0 && largest < flat)
@@ -134,9 +152,13 @@ static void correct_all(CzSurface *surface, int point, const double *u, double *
         isnan(surface->search->record[surface->record].objective))
         return;
     correct(surface->df, surface->n, step, square, surface->many_f[point] - surface->f);
-    for (int k = 0; k < surface->m; k++)
-        correct(surface->dc + k * surface->n, surface->n, step, square,
-                surface->many_d[point * surface->m + k] - surface->c[k]);
+    for (int k = 0; k < surface->m; k++) {
+        const double c = surface->many_d[point * surface->m + k];
+        if (!surface->is_known[k] && !isnan(c))
+            surface->c[k] += c - detail_at(surface, k, u);
+        else if (!isnan(c))
+            correct(surface->dc + k * surface->n, surface->n, step, square, c - surface->c[k]);
+    }
     surface->is_fresh = false;
 }
 
@@ -174,24 +196,12 @@ bool cz_surface_try(CzSurface *surface, const char *phase, int n_point, const do
     return cz_surface_try_exact(surface, phase, n_point, moved_to);
 }
 
-/* Value of a plane at scaled u. */
-static double plane_at(const CzSurface *surface, double base, const double *slope,
-                       const double *u) {
-    for (int i = 0; i < surface->n; i++)
-        base += slope[i] * (u[i] - surface->u[i]);
-    return base;
-}
-
-static double detail_at(const CzSurface *surface, int k, const double *u) {
-    return plane_at(surface, surface->c[k], surface->dc + k * surface->n, u);
-}
-
 double cz_surface_predict(const CzSurface *surface, const double *u, double *penalty) {
     double largest = -INFINITY;
     *penalty = 0;
     for (int k = 0; k < surface->m; k++) {
         const double c = detail_at(surface, k, u);
-        largest = counted_in(largest, surface, k, c);
+        largest = cz_surface_counted(largest, surface, k, c);
         *penalty += cz_search_compressed(fmax(c, 0));
     }
     return surface->search->function->is_minimax ? largest
@@ -206,144 +216,13 @@ double cz_surface_merit_at(const CzSurface *surface, const double *u, const doub
     double largest = -INFINITY, penalty = 0;
     for (int k = 0; k < surface->m; k++) {
         const double c = detail_at(surface, k, u);
-        largest = counted_in(largest, surface, k, c);
+        largest = cz_surface_counted(largest, surface, k, c);
         penalty += cz_search_compressed(fmax(c + (reserve != NULL ? reserve[k] : 0), 0));
     }
     const double objective = surface->search->function->is_minimax
                                  ? largest
                                  : plane_at(surface, surface->f, surface->df, u) / surface->scale;
     return objective + surface->weight * penalty;
-}
-
-/* ---- the best design on the planes ----------------------------------------------------------- */
-
-/* Whether a detail can be violated, or, where the largest one counts, be the largest, within the
- * box. */
-static bool can_matter(const CzSurface *surface, int k, const double *lo, const double *hi,
-                       double floor) {
-    double largest = surface->c[k];
-    for (int i = 0; i < surface->n; i++) {
-        const double slope = surface->dc[k * surface->n + i];
-        largest += fmax(slope * (lo[i] - surface->u[i]), slope * (hi[i] - surface->u[i]));
-    }
-    return largest >= floor;
-}
-
-/* No design in the box has its largest detail below this. */
-static double least_largest(const CzSurface *surface, const double *lo, const double *hi) {
-    double floor = -INFINITY;
-    for (int k = 0; k < surface->m; k++) {
-        double least = surface->c[k];
-        for (int i = 0; i < surface->n; i++) {
-            const double slope = surface->dc[k * surface->n + i];
-            least += fmin(slope * (lo[i] - surface->u[i]), slope * (hi[i] - surface->u[i]));
-        }
-        floor = counted_in(floor, surface, k, least);
-    }
-    return floor;
-}
-
-/* A linear program under construction: the variables are the change of the design, and the largest
- * detail where that is minimised. */
-typedef struct Draft {
-    CzArena arena;
-    CzLinearProgram program;
-    double *g, *c, *a, *w, *lo, *hi, *d;
-} Draft;
-
-static bool begin_draft(Draft *draft, int n, int most) {
-    CzArena *arena = &draft->arena;
-    draft->g = cz_arena_numbers(arena, (size_t)n);
-    draft->lo = cz_arena_numbers(arena, (size_t)n);
-    draft->hi = cz_arena_numbers(arena, (size_t)n);
-    draft->d = cz_arena_numbers(arena, (size_t)n);
-    draft->c = cz_arena_numbers(arena, (size_t)most);
-    draft->w = cz_arena_numbers(arena, (size_t)most);
-    draft->a = cz_arena_numbers(arena, (size_t)(most * n));
-    draft->program = (CzLinearProgram){.n = n,
-                                       .g = draft->g,
-                                       .c = draft->c,
-                                       .a = draft->a,
-                                       .w = draft->w,
-                                       .lo = draft->lo,
-                                       .hi = draft->hi};
-    return !arena->out_of_memory;
-}
-
-/* Adds detail k, less the largest detail where `below` is 1. */
-static void add_row(Draft *draft, const CzSurface *surface, int k, double price, double reserve,
-                    double below) {
-    const int n = draft->program.n, row = draft->program.m++;
-    memcpy(draft->a + row * n, surface->dc + k * surface->n, (size_t)surface->n * sizeof *draft->a);
-    if (n > surface->n)
-        draft->a[row * n + surface->n] = -below;
-    draft->c[row] = surface->c[k] + reserve;
-    draft->w[row] = price;
-}
-
-/* Price of a violation: with it the sum over the details changes as the penalty of a search. */
-static double price_of(const CzSurface *surface, double c) {
-    return surface->weight * cz_search_compressed_slope(c);
-}
-
-static void fill_draft(Draft *draft, const CzSurface *surface, const double *lo, const double *hi,
-                       const double *reserve) {
-    const bool is_minimax = surface->search->function->is_minimax;
-    const double floor = is_minimax ? fmin(least_largest(surface, lo, hi), 0) : 0;
-    double largest = -INFINITY;
-    for (int k = 0; k < surface->m; k++)
-        largest = counted_in(largest, surface, k, surface->c[k]);
-    for (int i = 0; i < surface->n; i++) {
-        draft->g[i] = is_minimax ? 0 : surface->df[i] / surface->scale;
-        draft->lo[i] = lo[i] - surface->u[i];
-        draft->hi[i] = hi[i] - surface->u[i];
-        draft->d[i] = fmin(fmax(0, draft->lo[i]), draft->hi[i]);
-    }
-    if (is_minimax) {
-        const int n = surface->n;
-        draft->g[n] = 1;
-        draft->lo[n] = -2;
-        draft->hi[n] = draft->d[n] = fmax(largest, 0) + 1;
-    }
-    for (int k = 0; k < surface->m; k++) {
-        const bool is_margin = is_minimax && !cz_detail_is_activation(surface->search->function, k);
-        if (!can_matter(surface, k, lo, hi, (is_margin ? floor : 0) - 1e-3))
-            continue;
-        if (is_margin)
-            add_row(draft, surface, k, 1e3, 0, 1);
-        if (!is_margin || largest > 0)
-            add_row(draft, surface, k, price_of(surface, surface->c[k]), reserve[k], 0);
-    }
-}
-
-bool cz_surface_best_in(const CzSurface *surface, const double *lo, const double *hi,
-                        const double *reserve, double *u) {
-    const bool is_minimax = surface->search->function->is_minimax;
-    Draft draft = {.arena = {0}};
-    bool found = begin_draft(&draft, surface->n + is_minimax, surface->m * (1 + is_minimax));
-    if (found) {
-        fill_draft(&draft, surface, lo, hi, reserve);
-        found = cz_linear_program(&draft.program, draft.d);
-    }
-    if (!found)
-        cz_search_end_without_memory(surface->search);
-    for (int i = 0; i < surface->n && found; i++)
-        u[i] = fmin(fmax(surface->u[i] + draft.d[i], 0), 1);
-    cz_arena_free(&draft.arena);
-    return found;
-}
-
-bool cz_surface_best(const CzSurface *surface, double radius, double *u) {
-    const size_t n = (size_t)surface->n;
-    double *box = cz_search_numbers(surface->search, 2 * n);
-    bool found = box != NULL;
-    for (size_t i = 0; i < n && found; i++) {
-        box[i] = fmax(surface->u[i] - radius, 0);
-        box[n + i] = fmin(surface->u[i] + radius, 1);
-    }
-    found = found && cz_surface_best_in(surface, box, box + n, surface->usual_reserve, u);
-    free(box);
-    return found;
 }
 
 /* ---- moving ---------------------------------------------------------------------------------- */

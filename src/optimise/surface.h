@@ -9,16 +9,20 @@
 #ifndef CZ_OPTIMISE_SURFACE_H
 #define CZ_OPTIMISE_SURFACE_H
 
+#include <math.h>
+
 #include "base/arena.h"
 #include "optimise/search.h"
 
 typedef struct CzSurface {
     CzArena arena;
     CzSearch *search;
-    int n, m;                             /* variables, details */
-    long record;                          /* of the base, -1 while there is none */
-    double *u;                            /* base, scaled (n) */
-    double f, *c;                         /* objective and details of the base (m) */
+    int n, m;       /* variables, details */
+    long record;    /* of the base, -1 while there is none */
+    double *u;      /* base, scaled (n) */
+    double f, *c;   /* objective and details of the base (m) */
+    bool *is_known; /* of a detail: not for one of a scenario that was left out, which is taken from
+                       the planes before (m) */
     double *df, *dc;                      /* slopes (n), (m x n) */
     double *usual_reserve;                /* distance of details below 0 in a descent (m) */
     bool is_fresh;                        /* no design has corrected the slopes since the secants */
@@ -47,6 +51,11 @@ bool cz_surface_try(CzSurface *surface, const char *phase, int n_point, const do
 /* The same with the designs of surface->x, in the variables' units, so that values on a catalogue
  * increment stay on it to the last bit. */
 bool cz_surface_try_exact(CzSurface *surface, const char *phase, int n_point, int *moved_to);
+
+/* The largest detail so far, with detail k of this value where it counts. */
+static inline double cz_surface_counted(double largest, const CzSurface *surface, int k, double c) {
+    return cz_detail_is_activation(surface->search->function, k) ? largest : fmax(largest, c);
+}
 
 /* Planes at scaled u: returns the objective and adds up the violations as the search ranks them. */
 double cz_surface_predict(const CzSurface *surface, const double *u, double *penalty);

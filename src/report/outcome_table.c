@@ -35,9 +35,11 @@ static void write_objective(const CzEvaluator *evaluator, const CzOutcome *outco
 
 const char *cz_outcome_words(const CzEvaluator *evaluator, const CzOutcome *outcome) {
     static const char *const words[] = {[CZ_OUTCOME_FEASIBLE] = "FEASIBLE",
+                                        [CZ_OUTCOME_UNVERIFIED] = "NO VERIFIED DESIGN FOUND",
                                         [CZ_OUTCOME_INFEASIBLE] = "NO FEASIBLE DESIGN FOUND",
                                         [CZ_OUTCOME_INTERRUPTED] = "INTERRUPTED"};
     static const char *const of_fit[] = {[CZ_OUTCOME_FEASIBLE] = "WITHIN EVERY TOLERANCE",
+                                         [CZ_OUTCOME_UNVERIFIED] = "NOT VERIFIED",
                                          [CZ_OUTCOME_INFEASIBLE] = "NOT WITHIN EVERY TOLERANCE",
                                          [CZ_OUTCOME_INTERRUPTED] = "INTERRUPTED"};
     return (cz_evaluator_is_fit(evaluator) ? of_fit : words)[outcome->status];
@@ -76,9 +78,48 @@ static const char *remark_on(const CzVariableInfo *variable, bool is_at_bound) {
     return is_at_bound ? "at its bound" : "";
 }
 
+void cz_scenario_use_sentence(const CzOutcome *outcome, size_t room, char *text) {
+    long n_run = 0;
+    int n_in_set = 0;
+    for (int s = 0; s < outcome->n_scenario; s++) {
+        n_run += outcome->scenario[s].n_run;
+        n_in_set += outcome->scenario[s].is_in_set;
+    }
+    text[0] = '\0';
+    if (outcome->n_scenario > 0)
+        snprintf(
+            text, room,
+            "%d of %d scenarios limit the designs; %ld of %ld designs were run in all of them: "
+            "%ld of %ld runs.",
+            n_in_set, outcome->n_scenario, outcome->n_whole, outcome->n_evaluation, n_run,
+            outcome->n_evaluation * outcome->n_scenario);
+}
+
+void cz_rejected_sentence(const CzReport *report, const CzRejected *rejected, size_t room,
+                          char *text) {
+    const CzEvaluator *evaluator = report->evaluator;
+    const CzVerifiedValue *value = &rejected->value;
+    char objective[CZ_FIGURE_ROOM], change[CZ_FIGURE_ROOM];
+    if (cz_evaluator_maximises_margin(evaluator))
+        cz_figure_margin(objective, -rejected->objective);
+    else
+        cz_figure_plain(objective, rejected->objective);
+    const char *method = cz_verify_method_text(rejected->method);
+    if (value->name == NULL)
+        snprintf(text, room, "Not verified: %s: %s", objective, rejected->failure);
+    else if (value->flips[rejected->method])
+        snprintf(text, room, "Not verified: %s: %s changes the verdict of %s%s%s", objective,
+                 method, value->name, value->scenario[0] != '\0' ? ", " : "", value->scenario);
+    else
+        snprintf(text, room, "Not verified: %s: %s changes %s%s%s by %s", objective, method,
+                 value->name, value->scenario[0] != '\0' ? ", " : "", value->scenario,
+                 cz_figure_percent(change, value->change[rejected->method]));
+}
+
 static void write_head(const CzEvaluator *evaluator, const CzOutcome *outcome,
                        CzTerminal *terminal) {
     static const CzStyle styles[] = {[CZ_OUTCOME_FEASIBLE] = CZ_STYLE_GOOD,
+                                     [CZ_OUTCOME_UNVERIFIED] = CZ_STYLE_BAD,
                                      [CZ_OUTCOME_INFEASIBLE] = CZ_STYLE_BAD,
                                      [CZ_OUTCOME_INTERRUPTED] = CZ_STYLE_CAREFUL};
     cz_terminal_say(terminal, styles[outcome->status], "%s", cz_outcome_words(evaluator, outcome));
@@ -88,6 +129,10 @@ static void write_head(const CzEvaluator *evaluator, const CzOutcome *outcome,
         fprintf(terminal->stream, "; the best so far is %sfeasible",
                 outcome->best_evaluation.violation <= 0 ? "" : "NOT ");
     fputc('\n', terminal->stream);
+    char text[CZ_SENTENCE_ROOM];
+    cz_scenario_use_sentence(outcome, sizeof text, text);
+    if (text[0] != '\0')
+        fprintf(terminal->stream, "%s\n", text);
     write_unchecked(&outcome->best_evaluation, terminal);
     if (outcome->start_evaluation.beyond_validity || outcome->best_evaluation.beyond_validity)
         cz_terminal_say(terminal, CZ_STYLE_BAD, CZ_FIGURE_CAUTION "\n");
@@ -282,6 +327,11 @@ void cz_outcome_write_table(const CzReport *report, CzTerminal *terminal) {
     write_violations(evaluator, outcome, terminal);
     write_worth(report, terminal);
     write_verification(outcome->verification, terminal);
+    for (int i = 0; i < outcome->n_rejected; i++) {
+        char text[CZ_SENTENCE_ROOM];
+        cz_rejected_sentence(report, &outcome->rejected[i], sizeof text, text);
+        fprintf(terminal->stream, "%s\n", text);
+    }
     if (report->robust != NULL)
         cz_robust_write_table(report->robust, terminal);
 

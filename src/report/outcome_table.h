@@ -16,6 +16,14 @@ void cz_outcome_put_constraint(CzReportTable *table, const CzEvaluator *evaluato
 /* End of a search, in capital letters; for a fit with respect to its tolerances. */
 const char *cz_outcome_words(const CzEvaluator *evaluator, const CzOutcome *outcome);
 
+/* A sentence on the scenarios that the search selected, "" when it ran all designs in all of them;
+ * `room` bytes. */
+void cz_scenario_use_sentence(const CzOutcome *outcome, size_t room, char *text);
+
+/* A sentence on a design that was not verified, without a full stop; `room` bytes. */
+void cz_rejected_sentence(const CzReport *report, const CzRejected *rejected, size_t room,
+                          char *text);
+
 /* The largest change by each method of a verification. */
 void cz_verified_begin_methods(CzReportTable *table, const CzVerification *verification,
                                bool on_page);

@@ -31,14 +31,19 @@ static void write_banner(CzMarkup *markup, const CzReport *report) {
     const char *given = cz_evaluator_objective_unit(evaluator), *unit = given != NULL ? given : "";
     const CzVerdict verdict = outcome->best_evaluation.verdict;
     const bool is_passed = outcome->status == CZ_OUTCOME_FEASIBLE && verdict == CZ_VERDICT_PASS;
-    cz_markup_write(markup, "<header><h1>%s</h1><p class='banner %s'>%s</p>",
-                    cz_problem_title(report->problem),
-                    outcome->status == CZ_OUTCOME_INFEASIBLE ? "fail"
-                    : is_passed                              ? "pass"
-                                                             : "careful",
-                    cz_outcome_words(evaluator, outcome));
+    cz_markup_write(
+        markup, "<header><h1>%s</h1><p class='banner %s'>%s</p>", cz_problem_title(report->problem),
+        outcome->status == CZ_OUTCOME_INFEASIBLE || outcome->status == CZ_OUTCOME_UNVERIFIED
+            ? "fail"
+        : is_passed ? "pass"
+                    : "careful",
+        cz_outcome_words(evaluator, outcome));
     cz_markup_write(markup, "<p>%ld evaluation%s: %s.</p>", outcome->n_evaluation,
                     outcome->n_evaluation == 1 ? "" : "s", outcome->why_stopped);
+    char use[CZ_SENTENCE_ROOM];
+    cz_scenario_use_sentence(outcome, sizeof use, use);
+    if (use[0] != '\0')
+        cz_markup_write(markup, "<p>%s</p>", use);
     if (cz_evaluator_maximises_margin(evaluator)) /* its negative is minimised */
         cz_markup_write(markup, "<p>Smallest margin of all constraints: before %s, after %s.</p>",
                         cz_figure_margin(before, -start), cz_figure_margin(after, -best));
@@ -193,8 +198,10 @@ static CzStatus write_values(CzMarkup *markup, const CzReport *report, CzError *
 
 /* ---- verification ---- */
 
-static void write_verification(CzMarkup *markup, const CzVerification *verification) {
-    char limit[CZ_FIGURE_ROOM];
+static void write_verification(CzMarkup *markup, const CzReport *report) {
+    const CzOutcome *outcome = report->outcome;
+    const CzVerification *verification = outcome->verification;
+    char limit[CZ_FIGURE_ROOM], text[CZ_SENTENCE_ROOM];
     cz_markup_write(markup, "<section id='verification'>\n"
                             "<h2>Verification of the best design</h2>\n");
     if (verification == NULL) {
@@ -212,6 +219,10 @@ static void write_verification(CzMarkup *markup, const CzVerification *verificat
     CzReportTable table;
     cz_verified_begin_methods(&table, verification, true);
     cz_table_write_page(&table, markup);
+    for (int i = 0; i < outcome->n_rejected; i++) {
+        cz_rejected_sentence(report, &outcome->rejected[i], sizeof text, text);
+        cz_markup_write(markup, "<p>%s.</p>", text);
+    }
     cz_markup_write(markup, "</section>\n");
 }
 
@@ -233,7 +244,7 @@ static CzStatus write_page(CzPage *page, const CzReport *report, CzError *error)
         cz_robust_write_page(report->robust, markup);
     write_active(markup, report);
     cz_page_write_sensitivities(markup, report);
-    write_verification(markup, outcome->verification);
+    write_verification(markup, report);
     CZ_TRY(write_search(markup, report, error));
     CZ_TRY(cz_page_write_designs(markup, report, error));
     CZ_TRY(write_values(markup, report, error));

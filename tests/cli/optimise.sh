@@ -121,3 +121,13 @@ readable() {
 }
 check "the best design of a search without success can be read back" readable
 finish
+
+# ---- verification ----
+hanging() { # one design, with a limit on its force just above the value of the production run
+    printf 'schema: 1\ntitle: hanging\nextends: two-trains.yaml\noptimise:\n  subject_to: [interface force]\n  variables: [{path: "parts.inner-end.coupler.tube.stages[0].stroke_mm", min: 200, max: 200}]\n' >hanging.yaml
+    "$C" verify two-trains.yaml --json >verified.json || return 1
+    limit=$(awk -v a="$("$BUILD/tests/read_json" verified.json values.1.production)" -v b="$("$BUILD/tests/read_json" verified.json values.1.half_step.value)" 'BEGIN { printf "%.9g", (a + b) / 2 }')
+    exits 1 "$C" optimise hanging.yaml -o hanging --set "checks.limits[0].max=$limit" && says out.txt 'NO VERIFIED DESIGN FOUND' && says out.txt 'Not verified: .* changes the verdict of interface force' &&
+        json hanging/outcome.json status unverified && json hanging/outcome.json best_is_feasible true && json hanging/outcome.json not_verified.0.flips true && [ "$(grep -c '^optimise: unverified after' hanging/run.log)" = 1 ]
+}
+check "a design that is not verified is no success" hanging

@@ -15,6 +15,9 @@ typedef struct StandIn {
     double incomplete_above; /* the same for a run that does not end [N] */
     double late_below; /* anti-climber force below which only a full run shows a closing speed of
                           1 m/s at the end [N]; 0 for never */
+    double unsteady_below; /* anti-climber force below which a halved time step adds 5 % to the
+                              energy [N]; 0 for never */
+    double step_energy;    /* share of the energy that a halved time step adds */
     int batch_width;
     long n_run; /* runs made since the reset */
     int rattle; /* energy scatter of a few per mille, a function of the design */

@@ -3,6 +3,7 @@
 
 #include "evaluate/stand_in.h"
 #include "optimise/cheats.h"
+#include "optimise/journal_in_memory.h"
 #include "optimise/outcome.h"
 
 #include <stdlib.h>
@@ -18,56 +19,6 @@ static const char sizing[] =
     "    - {path: \"parts.tube.stages[0].stroke_mm\", min: 100, max: 500, increment: 10}\n"
     "    - {path: \"parts.anti-climber.stages[0].force_kN\", min: 100, max: 900, increment: 50}\n";
 
-enum { MOST = 400 };
-
-/* What a search kept. */
-typedef struct Kept {
-    const CzEvaluator *evaluator;
-    CzAnswer answer[MOST];
-    long n;
-    long fails_at; /* number of evaluations from which nothing can be kept; 0 for never */
-    double best[8], best_violation;
-} Kept;
-
-static double *copy(const double *value, int n) {
-    double *made = malloc(((size_t)n + 1) * sizeof *made);
-    memcpy(made, value, (size_t)n * sizeof *made);
-    return made;
-}
-
-static CzStatus keep(const CzNews *news, void *data, CzError *error) {
-    Kept *kept = data;
-    for (int i = 0; i < news->n; i++) {
-        if (kept->fails_at > 0 && kept->n >= kept->fails_at) {
-            snprintf(error->message, sizeof error->message, "the disk is full");
-            return CZ_STATUS_OUTPUT;
-        }
-        assert_true(kept->n < MOST);
-        kept->answer[kept->n++] =
-            (CzAnswer){.x = copy(news->answer[i].x, cz_evaluator_n_variable(kept->evaluator)),
-                       .objective = news->answer[i].objective,
-                       .n_constraint = news->answer[i].n_constraint,
-                       .n_detail = news->answer[i].n_detail,
-                       .constraint = copy(news->answer[i].constraint, news->answer[i].n_constraint),
-                       .detail = copy(news->answer[i].detail, news->answer[i].n_detail)};
-    }
-    if (news->best != NULL) {
-        memcpy(kept->best, news->best,
-               (size_t)cz_evaluator_n_variable(kept->evaluator) * sizeof(double));
-        kept->best_violation = news->best_violation;
-    }
-    return CZ_OK;
-}
-
-static void forget(Kept *kept) {
-    for (long i = 0; i < kept->n; i++) {
-        free((double *)kept->answer[i].x);
-        free((double *)kept->answer[i].constraint);
-        free((double *)kept->answer[i].detail);
-    }
-    kept->n = 0;
-}
-
 /* Searches with the first n answers of `from` (NULL: none), of which `n_earlier` come in any
  * order, and keeps the rest. */
 static CzStatus search(const Kept *from, long n, long n_earlier, long evaluations, Kept *kept,
@@ -80,7 +31,7 @@ static CzStatus search(const Kept *from, long n, long n_earlier, long evaluation
     const CzJournal journal = {.n_answer = n,
                                .answer = from != NULL ? from->answer : NULL,
                                .n_earlier = n_earlier,
-                               .keep = keep,
+                               .keep = journal_keep,
                                .keep_data = kept};
     CzOptimiseOptions options = cz_optimise_options_default();
     options.journal = &journal;
@@ -118,7 +69,7 @@ static void search_with_its_whole_journal_makes_no_run(void **state) {
     assert_true(stand_in.n_run <= n_design * outcome->best_evaluation.n_run);
     assert_int_equal(rest.n, 0);
     assert_same(outcome, again);
-    forget(&all);
+    journal_forget(&all);
     cz_outcome_free(outcome);
     cz_outcome_free(again);
 }
@@ -137,10 +88,10 @@ static void search_goes_on_from_any_part_of_its_journal(void **state) {
         for (long i = 0; i < rest.n; i++)
             assert_memory_equal(rest.answer[i].x, all.answer[n + i].x, 2 * sizeof(double));
         assert_same(outcome, again);
-        forget(&rest);
+        journal_forget(&rest);
         cz_outcome_free(again);
     }
-    forget(&all);
+    journal_forget(&all);
     cz_outcome_free(outcome);
 }
 
@@ -162,7 +113,7 @@ static void kept_best_design_is_that_of_the_search(void **state) {
         is_found |= outcome->trial[i].objective == best &&
                     memcmp(all.best, outcome->trial_x + 2 * i, 2 * sizeof(double)) == 0;
     assert_true(is_found);
-    forget(&all);
+    journal_forget(&all);
     cz_outcome_free(outcome);
 }
 
@@ -177,9 +128,9 @@ static void search_with_a_higher_limit_takes_what_it_finds(void **state) {
     assert_int_equal(search(&few, few.n, few.n, 80, &rest, &continued, &error), CZ_OK);
     assert_same(longer, continued);
     assert_true(rest.n < all.n);
-    forget(&few);
-    forget(&all);
-    forget(&rest);
+    journal_forget(&few);
+    journal_forget(&all);
+    journal_forget(&rest);
     cz_outcome_free(shorter);
     cz_outcome_free(longer);
     cz_outcome_free(continued);
@@ -196,7 +147,7 @@ static void journal_of_another_search_is_refused(void **state) {
     assert_int_equal(search(&all, all.n, 0, 80, &rest, &again, &error), CZ_STATUS_INPUT);
     assert_null(again);
     assert_non_null(strstr(error.message, "evaluation 21 of the journal is of another design"));
-    forget(&all);
+    journal_forget(&all);
     cz_outcome_free(outcome);
 }
 
@@ -211,8 +162,8 @@ static void evaluation_that_cannot_be_kept_ends_the_search(void **state) {
     assert_string_equal(error.message, "the disk is full");
     assert_int_equal(all.n, 30);
     assert_int_equal(search(&all, all.n, 0, 80, &rest, &again, &error), CZ_OK);
-    forget(&all);
-    forget(&rest);
+    journal_forget(&all);
+    journal_forget(&rest);
     cz_outcome_free(again);
 }
 

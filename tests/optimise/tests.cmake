@@ -7,6 +7,8 @@ cz_test(test_bounds optimise test_bounds.c tests/evaluate/stand_in.c tests/evalu
 cz_test(test_choices optimise test_choices.c tests/evaluate/small_problem.c)
 cz_test(test_matches optimise test_matches.c tests/evaluate/small_problem.c)
 cz_test(test_replay optimise test_replay.c tests/evaluate/stand_in.c tests/evaluate/small_problem.c)
+cz_test(test_selection optimise test_selection.c tests/evaluate/stand_in.c tests/evaluate/small_problem.c)
+cz_test(test_verified optimise test_verified.c tests/evaluate/stand_in.c tests/evaluate/small_problem.c)
 cz_test(test_pareto optimise test_pareto.c tests/evaluate/stand_in.c tests/evaluate/small_problem.c)
 cz_test(test_linear_program optimise test_linear_program.c)
 cz_test(test_bench_designs optimise test_bench_designs.c)

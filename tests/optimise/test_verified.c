@@ -1,0 +1,110 @@
+/* A result of a search is verified, or the search has none: on the stand-in simulator, which
+ * responds to the time step as a test wants. */
+#include "support/check.h"
+
+#include "evaluate/stand_in.h"
+#include "optimise/cheats.h"
+
+/* The weaker the anti-climbers the better, as long as their stroke is used up to the limit at most.
+ */
+static const char sizing[] =
+    "checks:\n"
+    "  design_rules: false\n"
+    "  limits: [{name: used, metric: elements.anti-climber *.stroke_used, max: %.9f, scenarios: "
+    "[crash]}]\n"
+    "optimise:\n"
+    "  minimise: elements.anti-climber *.peak_force_kN\n"
+    "  subject_to: [used]\n"
+    "  evaluations: 60\n"
+    "  variables:\n"
+    "    - {path: \"parts.anti-climber.stages[0].force_kN\", min: 50, max: 700, increment: 10}\n";
+
+static Case search_within(double limit) {
+    char more[2048];
+    snprintf(more, sizeof more, sizing, limit);
+    Case made = begin(more, 2);
+    optimise(&made, NULL);
+    return made;
+}
+
+static Case search(void) {
+    return search_within(0.9);
+}
+
+static double best_force(void) {
+    Case made = search();
+    const double force = made.outcome->best[0];
+    assert_int_equal(made.outcome->status, CZ_OUTCOME_FEASIBLE);
+    assert_int_equal(made.outcome->verification->verdict, CZ_VERDICT_PASS);
+    end(&made);
+    return force;
+}
+
+static void design_that_is_not_verified_is_not_the_best(void **state) {
+    (void)state;
+    stand_in_reset();
+    const double force = best_force();
+    stand_in.unsteady_below = (force + 15) * 1e3; /* it, and the next one */
+    Case made = search();
+    const CzOutcome *outcome = made.outcome;
+    assert_int_equal(outcome->status, CZ_OUTCOME_FEASIBLE);
+    assert_int_equal(outcome->verification->verdict, CZ_VERDICT_PASS);
+    assert_true(outcome->best[0] * 1e3 >= stand_in.unsteady_below);
+    assert_true(outcome->best_evaluation.violation <= 0);
+    assert_true(outcome->n_rejected > 0);
+    assert_near(outcome->rejected[0].x[0], force, 0, 0);
+    assert_int_equal(outcome->rejected[0].method, CZ_METHOD_HALF_STEP);
+    assert_true(outcome->rejected[0].value.change[CZ_METHOD_HALF_STEP] > 0.01);
+    assert_true(outcome->rejected[0].objective < outcome->best_evaluation.objective);
+    assert_non_null(strstr(outcome->why_stopped, "with a better objective not verified"));
+    end(&made);
+}
+
+static void without_a_verified_design_there_is_no_success(void **state) {
+    (void)state;
+    stand_in_reset();
+    const double force = best_force();
+    stand_in.unsteady_below = INFINITY;
+    Case made = search();
+    const CzOutcome *outcome = made.outcome;
+    assert_int_equal(outcome->status, CZ_OUTCOME_UNVERIFIED);
+    assert_string_equal(cz_outcome_text(outcome->status), "unverified");
+    assert_int_equal(outcome->verification->verdict, CZ_VERDICT_FAIL);
+    assert_near(outcome->best[0], force, 0, 0);
+    assert_true(outcome->n_rejected > 1);
+    assert_true(outcome->n_evaluation <= 60);
+    end(&made);
+}
+
+/* The halved time step changes the use of a stroke by less than a verification allows, but by more
+ * than the best design has left. */
+static void change_of_a_verdict_becomes_a_required_margin(void **state) {
+    (void)state;
+    stand_in_reset();
+    Case made = search();
+    const CzCheckResult *used = find(&made.outcome->best_evaluation, "used", "crash");
+    const double force = made.outcome->best[0], limit = used->value * (1 + 1e-4);
+    end(&made);
+    stand_in.step_energy = 3e-4;
+    made = search_within(limit);
+    const CzOutcome *outcome = made.outcome;
+    assert_int_equal(outcome->status, CZ_OUTCOME_FEASIBLE);
+    assert_int_equal(outcome->verification->verdict, CZ_VERDICT_PASS);
+    assert_int_equal(outcome->n_rejected, 1);
+    const CzRejected *rejected = &outcome->rejected[0];
+    assert_true(rejected->value.flips[rejected->method]);
+    assert_true(rejected->value.change[rejected->method] < 0.01);
+    assert_near(rejected->x[0], force, 0, 0);
+    used = find(&outcome->best_evaluation, "used", "crash");
+    assert_true(used->margin >= rejected->value.change[rejected->method]);
+    end(&made);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(design_that_is_not_verified_is_not_the_best),
+        cmocka_unit_test(without_a_verified_design_there_is_no_success),
+        cmocka_unit_test(change_of_a_verdict_becomes_a_required_margin),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

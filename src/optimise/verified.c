@@ -17,8 +17,8 @@
 #include <string.h>
 
 enum {
-    MOST_VERIFIED = 8,      /* designs that are verified after the best one (ours) */
-    MOST_EVALUATED = 24,    /* designs that are evaluated in full for it (ours) */
+    MOST_VERIFIED = 4, /* designs that are verified in all scenarios after the best one (ours) */
+    MOST_TRIED = 24,   /* designs that are tried for it (ours) */
     FEWEST_EVALUATIONS = 12 /* for a further search (ours) */
 };
 
@@ -33,9 +33,10 @@ typedef struct Trial {
     const CzOptimiseOptions *options;
     CzOutcome *outcome;
     CzRequired required;
-    bool on_grid; /* only designs on the catalogue increments count */
-    double *x;    /* scratch (n_variable) */
-    int n_verified, n_evaluated;
+    bool on_grid;     /* only designs on the catalogue increments count */
+    double *x;        /* scratch (n_variable) */
+    double objective; /* of the design in the search */
+    int n_verified, n_tried;
     int n_listed; /* candidates in the list */
     Candidate *list;
 } Trial;
@@ -158,28 +159,27 @@ static bool keeps_margins(const Trial *trial, const CzEvaluation *evaluation) {
 }
 
 /* Verifies a design; one that is not verified is refused. */
-static CzStatus verify(Trial *trial, const double *x, const CzEvaluation *whole, double objective,
-                       unsigned methods, CzVerification **verification, CzError *error) {
-    CzOptimiseOptions options = *trial->options;
-    options.verify_methods = methods;
+static CzStatus verify(Trial *trial, const CzEvaluation *whole, CzVerification **verification,
+                       CzError *error) {
     *verification = NULL;
-    CZ_TRY(cz_outcome_verify_design(trial->evaluator, &options, x, whole, verification, error));
+    CZ_TRY(cz_outcome_verify_design(trial->evaluator, trial->options, trial->x, whole, verification,
+                                    error));
     if ((*verification)->verdict == CZ_VERDICT_PASS)
         return CZ_OK;
-    const CzStatus status = refuse(trial, x, objective, *verification, error);
+    const CzStatus status = refuse(trial, trial->x, trial->objective, *verification, error);
     cz_verification_free(*verification);
     *verification = NULL;
     return status;
 }
 
 /* Takes a design with its whole runs as the result when it is verified. */
-static CzStatus take_verified(Trial *trial, const double *x, bool *is_verified, CzError *error) {
+static CzStatus take_verified(Trial *trial, bool *is_verified, CzError *error) {
     CzOutcome *outcome = trial->outcome;
     CzEvaluation whole;
     CzVerification *verification = NULL;
-    CZ_TRY(cz_evaluate(trial->evaluator, 1, x, true, &whole, error));
-    CzStatus status = verify(trial, x, &whole, whole.objective, trial->options->verify_methods,
-                             &verification, error);
+    CZ_TRY(cz_evaluate(trial->evaluator, 1, trial->x, true, &whole, error));
+    trial->objective = whole.objective;
+    const CzStatus status = verify(trial, &whole, &verification, error);
     *is_verified = status == CZ_OK && verification != NULL;
     if (!*is_verified) {
         cz_evaluation_free(&whole);
@@ -189,43 +189,66 @@ static CzStatus take_verified(Trial *trial, const double *x, bool *is_verified, 
     cz_verification_free(outcome->verification);
     outcome->best_evaluation = whole;
     outcome->verification = verification;
-    memcpy(outcome->best, x, (size_t)outcome->n_variable * sizeof *x);
+    memcpy(outcome->best, trial->x, (size_t)outcome->n_variable * sizeof *outcome->best);
     outcome->status = CZ_OUTCOME_FEASIBLE;
     cz_outcome_mark_bounds(trial->evaluator, outcome);
     return CZ_OK;
 }
 
-/* Tries the design of trial->x: by one evaluation, by the halved time step, which takes the least
- * time, then by all methods. */
+/* Whether a design is verified in the scenarios in which others were refused: the response of most
+ * scenarios is not chaotic. */
+static CzStatus screen(Trial *trial, bool *passes, CzError *error) {
+    const CzOutcome *outcome = trial->outcome;
+    const char *name[MOST_TRIED + 1];
+    int n = 0;
+    CzVerification *verification = NULL;
+    for (int i = 0; i < outcome->n_rejected; i++)
+        if (outcome->rejected[i].value.scenario[0] != '\0')
+            name[n++] = outcome->rejected[i].value.scenario;
+    for (int s = 0; s < cz_evaluator_n_scenario(trial->evaluator); s++)
+        if (!cz_evaluator_has_run_of(trial->evaluator, s))
+            n = 0; /* the caller selects the scenarios */
+    *passes = true;
+    if (n == 0)
+        return CZ_OK;
+    CzStatus status = cz_evaluator_set_scenarios(trial->evaluator, n, name, error);
+    if (status == CZ_OK)
+        status = verify(trial, NULL, &verification, error);
+    *passes = status == CZ_OK && verification != NULL;
+    cz_verification_free(verification);
+    const CzStatus restored = cz_evaluator_set_scenarios(trial->evaluator, 0, NULL, error);
+    return status != CZ_OK ? status : restored;
+}
+
+/* Tries the design of trial->x: by one evaluation, in the scenarios in which others were refused,
+ * then in all. */
 static CzStatus try_design(Trial *trial, bool *is_verified, CzError *error) {
-    const unsigned half_step = trial->options->verify_methods & 1u << CZ_METHOD_HALF_STEP;
     CzEvaluation evaluation;
-    CzVerification *first = NULL;
-    trial->n_evaluated++;
+    bool passes;
+    trial->n_tried++;
+    CZ_TRY(screen(trial, &passes, error));
+    if (!passes)
+        return CZ_OK;
     CZ_TRY(cz_evaluate(trial->evaluator, 1, trial->x, false, &evaluation, error));
-    const bool is_kept = keeps_margins(trial, &evaluation);
-    const double objective = evaluation.objective;
+    passes = keeps_margins(trial, &evaluation);
     cz_evaluation_free(&evaluation);
-    if (!is_kept)
+    if (!passes)
         return CZ_OK;
     trial->n_verified++;
-    if (half_step != 0)
-        CZ_TRY(verify(trial, trial->x, NULL, objective, half_step, &first, error));
-    const bool is_open = half_step == 0 || first != NULL;
-    cz_verification_free(first);
-    return is_open ? take_verified(trial, trial->x, is_verified, error) : CZ_OK;
+    return take_verified(trial, is_verified, error);
 }
 
 /* Tries the designs of the list in order. */
 static CzStatus try_list(Trial *trial, bool *is_verified, CzError *error) {
     for (int i = 0; i < trial->n_listed && !*is_verified && trial->n_verified < MOST_VERIFIED &&
-                    trial->n_evaluated < MOST_EVALUATED;
+                    trial->n_tried < MOST_TRIED;
          i++) {
         const Candidate *candidate = &trial->list[i];
         cz_subspace_expand(candidate->subspace,
                            cz_search_x(&candidate->subspace->search, candidate->record), trial->x);
         if (is_refused(trial, trial->x))
             continue;
+        trial->objective = record_of(candidate)->objective;
         CZ_TRY(try_design(trial, is_verified, error));
         if (*is_verified)
             trial->combinations->chosen =
@@ -258,7 +281,7 @@ static CzStatus search_on(Trial *trial, CzError *error) {
 
 static CzStatus find(Trial *trial, CzError *error) {
     CzOutcome *outcome = trial->outcome;
-    const size_t room = MOST_VERIFIED + 2, m = (size_t)cz_evaluator_n_constraint(trial->evaluator);
+    const size_t room = MOST_TRIED + 1, m = (size_t)cz_evaluator_n_constraint(trial->evaluator);
     CzArena *arena = &trial->required.arena;
     trial->x = cz_arena_numbers(arena, (size_t)outcome->n_variable);
     trial->required.margin = cz_arena_numbers(arena, m);

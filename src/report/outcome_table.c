@@ -311,6 +311,19 @@ static void write_verification(const CzVerification *verification, CzTerminal *t
         write_worst(verification, (CzVerifyMethod)method, terminal->stream);
 }
 
+/* The first designs that were not verified. */
+static void write_rejected(const CzReport *report, CzTerminal *terminal) {
+    enum { MOST_LINES = 4 };
+    const int n = report->outcome->n_rejected;
+    char text[CZ_SENTENCE_ROOM];
+    for (int i = 0; i < n && i < MOST_LINES; i++) {
+        cz_rejected_sentence(report, &report->outcome->rejected[i], sizeof text, text);
+        fprintf(terminal->stream, "%s\n", text);
+    }
+    if (n > MOST_LINES)
+        fprintf(terminal->stream, "Not verified: %d more\n", n - MOST_LINES);
+}
+
 void cz_outcome_write_table(const CzReport *report, CzTerminal *terminal) {
     const CzEvaluator *evaluator = report->evaluator;
     const CzOutcome *outcome = report->outcome;
@@ -327,11 +340,7 @@ void cz_outcome_write_table(const CzReport *report, CzTerminal *terminal) {
     write_violations(evaluator, outcome, terminal);
     write_worth(report, terminal);
     write_verification(outcome->verification, terminal);
-    for (int i = 0; i < outcome->n_rejected; i++) {
-        char text[CZ_SENTENCE_ROOM];
-        cz_rejected_sentence(report, &outcome->rejected[i], sizeof text, text);
-        fprintf(terminal->stream, "%s\n", text);
-    }
+    write_rejected(report, terminal);
     if (report->robust != NULL)
         cz_robust_write_table(report->robust, terminal);
 

@@ -440,8 +440,10 @@ CzStatus cz_checklist_aim(const CzProblem *problem, const CzAim *aim, int n_scen
                        .arena = arena,
                        .list = checklist,
                        .error = error};
-    if (!isnan(aim->margin))
+    if (!isnan(aim->margin)) {
+        checklist->aimed_margin = fmax(0, aim->margin);
         checklist->required_margin = fmax(checklist->required_margin, aim->margin);
+    }
     if (aim->bounded == NULL)
         return CZ_OK;
     const int n_before = checklist->n_check;
@@ -452,7 +454,7 @@ CzStatus cz_checklist_aim(const CzProblem *problem, const CzAim *aim, int n_scen
         .name = (char *)name, .metric = (char *)name, .max = aim->bound, .min = NAN, .scale = NAN};
     CZ_TRY(append_limit(&builder, &limit, NULL, true));
     for (int i = n_before; i < checklist->n_check; i++) { /* the limit itself, without a margin */
-        checklist->check[i].is_constraint = checklist->check[i].is_bare = true;
+        checklist->check[i].is_constraint = checklist->check[i].is_bound = true;
         checklist->n_constraint++;
     }
     return CZ_OK;

@@ -27,8 +27,8 @@ typedef struct CzCheck {
     bool is_target;      /* a constraint of the optimiser only, not listed */
     bool is_rule;        /* a rule of problem files, for any design */
     bool is_provisional; /* the limit is unconfirmed */
-    bool is_bare; /* without reserves: no margin is required, and the objective does not contain it
-                   */
+    bool is_bare;        /* without the reserves of the file */
+    bool is_bound;       /* of the caller's aim: it has no margin to keep */
     bool is_constraint;
 } CzCheck;
 
@@ -36,7 +36,8 @@ typedef struct CzChecklist {
     int n_check;
     CzCheck *check; /* (n_check), of the arena; scenarios in order within each limit */
     int n_constraint;
-    double required_margin;
+    double required_margin; /* by the file or the caller's aim */
+    double aimed_margin;    /* by the aim alone, also where the file has no reserves */
     int n_not_covered;
     const char *const *not_covered; /* of the profile (n_not_covered) */
 } CzChecklist;
@@ -49,7 +50,9 @@ CZ_MUST_CHECK CzStatus cz_checklist_build(const CzProblem *problem, int n_scene,
 
 /* Margin that a search requires of a check. */
 static inline double cz_checklist_required(const CzChecklist *list, const CzCheck *check) {
-    return check->is_rule || check->is_bare ? 0 : list->required_margin;
+    return check->is_rule || check->is_bound ? 0
+           : check->is_bare                  ? list->aimed_margin
+                                             : list->required_margin;
 }
 
 /* Name of the scenario of a check: "design" for a check of the design as written. */

@@ -94,6 +94,39 @@ static void search_begins_at_a_given_design(void **state) {
 }
 
 /* The bound holds as it is, whatever margin the checks need. */
+/* As of a front: the smallest margin that it reports contains these scenarios too. */
+static void aimed_margin_holds_in_scenarios_without_reserves(void **state) {
+    (void)state;
+    stand_in_reset();
+    static const char *const set[] = {"scenarios.crash.reserves=false"};
+    CzProblem *problem;
+    const CzAim aim = {.minimise = LENGTH, .margin = 0.05, .bound = NAN};
+    CzEvaluatorOptions options = cz_evaluator_options_default();
+    CzEvaluator *plain, *aimed;
+    CzEvaluation with, without;
+    CzError error = {0};
+    assert_int_equal(small_problem_read(sizing, 1, set, &problem, &error), CZ_OK);
+    assert_int_equal(cz_evaluator_build(problem, &options, &plain, &error), CZ_OK);
+    options.aim = &aim;
+    assert_int_equal(cz_evaluator_build(problem, &options, &aimed, &error), CZ_OK);
+    assert_int_equal(cz_evaluate(plain, 1, NULL, false, &without, &error), CZ_OK);
+    assert_int_equal(cz_evaluate(aimed, 1, NULL, false, &with, &error), CZ_OK);
+    int n_bare = 0;
+    for (int i = 0; i < with.n_constraint; i++) {
+        const CzCheckResult *check = &with.constraint_check[i];
+        if (strcmp(check->name, "stroke") != 0)
+            continue;
+        assert_near(with.constraint[i] - without.constraint[i], 0.05, ROUNDING_OF_A_FORMULA, 0);
+        n_bare++;
+    }
+    assert_true(n_bare > 0);
+    cz_evaluation_free(&with);
+    cz_evaluation_free(&without);
+    cz_evaluator_free(plain);
+    cz_evaluator_free(aimed);
+    cz_problem_free(problem);
+}
+
 static void aim_replaces_objective_and_adds_a_bound(void **state) {
     (void)state;
     stand_in_reset();
@@ -126,6 +159,7 @@ int main(void) {
         cmocka_unit_test(shorter_devices_leave_less_margin),
         cmocka_unit_test(failed_runs_fail_their_point_alone),
         cmocka_unit_test(search_begins_at_a_given_design),
+        cmocka_unit_test(aimed_margin_holds_in_scenarios_without_reserves),
         cmocka_unit_test(aim_replaces_objective_and_adds_a_bound),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -18,6 +18,11 @@ if(CZ_IS_WHOLE)
     target_include_directories(bench_searches PRIVATE ${PROJECT_SOURCE_DIR}/tests)
     target_link_libraries(bench_searches PRIVATE cz_static)
     cz_build_for(bench bench_searches)
+    # Times evaluations by the library; loop.py those over `serve` from Python.
+    add_executable(bench_loop ${CMAKE_CURRENT_LIST_DIR}/loop.c)
+    target_compile_definitions(bench_loop PRIVATE CZ_SOURCE_FOLDER="${PROJECT_SOURCE_DIR}")
+    target_link_libraries(bench_loop PRIVATE cz_static)
+    cz_build_for(bench bench_loop)
     # Prints docs/performance.md from what was measured.
     add_executable(bench_page ${CMAKE_CURRENT_LIST_DIR}/page.c)
     target_link_libraries(bench_page PRIVATE cz_flags PkgConfig::JANSSON m)

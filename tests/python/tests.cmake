@@ -1,0 +1,3 @@
+if(CZ_IS_WHOLE)
+    cz_script(python python python.sh)
+endif()

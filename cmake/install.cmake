@@ -3,6 +3,9 @@
 install(TARGETS crushzone EXPORT crushzone
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program NAMELINK_COMPONENT development)
 install(TARGETS crushzone-installed RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+if(TARGET crushzone-mpi-installed)
+    install(TARGETS crushzone-mpi-installed RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mpi)
+endif()
 install(DIRECTORY include/crushzone DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 install(DIRECTORY problems/ DESTINATION ${CMAKE_INSTALL_DATADIR}/crushzone COMPONENT program)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)

@@ -1,6 +1,7 @@
 # Sources of src/base, one per line.
 set(CZ_SOURCES_base
     arena.c
+    bytes.c
     error.c
     increment.c
     index.c

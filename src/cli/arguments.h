@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "base/suggest.h"
+#include "crushzone/executor.h"
 #include "crushzone/simulate.h"
 
 typedef enum CzCommand {
@@ -54,19 +55,20 @@ typedef struct CzArguments {
     int n_minimise;
     const char **check; /* names (n_check) */
     int n_check;
-    char time_step[64]; /* room for the setting that --time-step-ms represents */
-    int n_job;          /* 0: number of processors */
-    long evaluations;   /* 0: that of the file */
-    long seed;          /* -1: that of the file */
-    double max_time;    /* [s]; 0 for none */
-    long rounds;        /* 0: the default */
-    long n_run;         /* 0: the default */
-    long n_sample;      /* 0: that of the file */
-    long n_curve;       /* 0: the default */
-    int shard, n_shard; /* 1 and 1: all samples or points */
-    int n_point;        /* 0: the default */
-    int n_stage;        /* -1: as many as the curve requires */
-    int basis, flip;    /* words of these options, counted from 0; -1: not given */
+    char time_step[64];         /* room for the setting that --time-step-ms represents */
+    int n_job;                  /* 0: number of processors */
+    const CzExecutor *executor; /* NULL: threads */
+    long evaluations;           /* 0: that of the file */
+    long seed;                  /* -1: that of the file */
+    double max_time;            /* [s]; 0 for none */
+    long rounds;                /* 0: the default */
+    long n_run;                 /* 0: the default */
+    long n_sample;              /* 0: that of the file */
+    long n_curve;               /* 0: the default */
+    int shard, n_shard;         /* 1 and 1: all samples or points */
+    int n_point;                /* 0: the default */
+    int n_stage;                /* -1: as many as the curve requires */
+    int basis, flip;            /* words of these options, counted from 0; -1: not given */
     CzIntegrator integrator;
     char csv_separator, csv_decimal;
     CzColour colour;

@@ -39,6 +39,7 @@ static int challenge_file(CzSession *session, void *data) {
         options.n_run = (int)arguments->n_run;
     options.seed = arguments->seed;
     options.n_job = arguments->n_job;
+    options.executor = arguments->executor;
     options.stop = cz_interrupt_flag();
     options.progress = cz_progress_count;
     options.progress_data = (void *)arguments;

@@ -41,6 +41,7 @@ static int find_corridor(CzSession *session, void *data) {
     options.seed = arguments->seed;
     options.has_scatter = arguments->text[CZ_OPTION_NO_SCATTER] == NULL;
     options.n_job = arguments->n_job;
+    options.executor = arguments->executor;
     options.text = session->text;
     options.n_text = session->n_text;
     options.stop = cz_interrupt_flag();

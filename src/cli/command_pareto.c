@@ -81,6 +81,7 @@ static CzParetoOptions options_of(const Front *front, Progress *progress) {
     if (arguments->n_point > 0)
         options.n_point = arguments->n_point;
     options.n_job = arguments->n_job;
+    options.executor = arguments->executor;
     options.search.algorithm = head != NULL ? head->algorithm : NULL;
     if (arguments->text[CZ_OPTION_ALGORITHM] != NULL)
         options.search.algorithm = arguments->text[CZ_OPTION_ALGORITHM];

@@ -44,6 +44,7 @@ static int sample_file(CzSession *session, void *data) {
     options.shard = arguments->shard;
     options.n_shard = arguments->n_shard;
     options.n_job = arguments->n_job;
+    options.executor = arguments->executor;
     options.text = session->text;
     options.n_text = session->n_text;
     options.stop = cz_interrupt_flag();

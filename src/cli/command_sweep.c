@@ -91,6 +91,7 @@ static int sweep_file(CzSession *session, void *data) {
     options.recall = asked->shards != NULL ? cz_shards_fill_sweep : NULL;
     options.recall_data = asked->shards;
     options.n_job = arguments->n_job;
+    options.executor = arguments->executor;
     options.text = session->text;
     options.n_text = session->n_text;
     options.stop = cz_interrupt_flag();

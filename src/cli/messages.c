@@ -16,6 +16,8 @@ enum { SHOWN_BEFORE = 60, SHOWN_AFTER = 40 }; /* characters of a long line aroun
 bool cz_wants_colour(const CzArguments *arguments, int descriptor) {
     if (arguments->colour != CZ_COLOUR_AUTO)
         return arguments->colour == CZ_COLOUR_ALWAYS;
+    if (arguments->executor != NULL)
+        return false; /* mpirun shows a terminal to rank 0 even where its own output is a file */
     const char *no_color = getenv("NO_COLOR"), *term = getenv("TERM");
     return isatty(descriptor) && (no_color == NULL || no_color[0] == '\0') && term != NULL &&
            term[0] != '\0' && strcmp(term, "dumb") != 0;

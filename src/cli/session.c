@@ -78,6 +78,7 @@ int cz_session_read(CzSession *session, const CzArguments *arguments, const char
 CzEvaluatorOptions cz_session_evaluator_options(const CzArguments *arguments) {
     CzEvaluatorOptions options = cz_evaluator_options_default();
     options.n_job = arguments->n_job;
+    options.executor = arguments->executor;
     options.scenario = arguments->text[CZ_OPTION_SCENARIO];
     options.integrator = arguments->integrator;
     return options;
@@ -105,9 +106,11 @@ void cz_session_end(CzSession *session) {
     session->problem = NULL;
 }
 
-/* Number of threads that were used: as requested, else the number of processors. */
+/* Number of threads or ranks that were used: as requested, else the number of processors. */
 static int n_job_of(const CzArguments *arguments) {
     const long n_processor = sysconf(_SC_NPROCESSORS_ONLN);
+    if (arguments->executor != NULL)
+        return arguments->executor->n_place;
     return arguments->n_job > 0 ? arguments->n_job : n_processor > 0 ? (int)n_processor : 0;
 }
 

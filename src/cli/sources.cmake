@@ -30,8 +30,13 @@ set(CZ_SOURCES_cli
     recall.c
     result.c
     resume.c
+    program.c
     progress.c
     session.c
     shard.c
     share_folder.c
+)
+# In place of main.c in the program crushzone-mpi.
+set(CZ_SOURCES_mpi
+    mpi.c
 )

@@ -156,9 +156,34 @@ static CzStatus build_objective(CzEvaluator *evaluator, const CzAim *aim, CzErro
     return CZ_OK;
 }
 
+static const char *copy_text(CzArena *arena, const char *text) {
+    return text != NULL ? cz_arena_copy_text(arena, text, strlen(text)) : NULL;
+}
+
+/* Keeps what workers need to make the evaluator. */
+static CzStatus begin_study(CzEvaluator *evaluator, const CzAim *aim, CzError *error) {
+    CzArena *arena = &evaluator->arena;
+    CzAim *kept = cz_arena_allocate(arena, 1, sizeof *kept);
+    evaluator->study = cz_arena_allocate(arena, 1, sizeof *evaluator->study);
+    if (kept == NULL || evaluator->study == NULL)
+        return cz_no_memory(error, "the evaluator");
+    *evaluator->study = (CzStudy){.executor = evaluator->executor,
+                                  .kind = CZ_STUDY_OF_RUNS,
+                                  .describe = cz_evaluator_describe,
+                                  .data = evaluator};
+    if (aim == NULL)
+        return CZ_OK;
+    *kept = *aim;
+    kept->minimise = copy_text(arena, aim->minimise);
+    kept->bounded = copy_text(arena, aim->bounded);
+    evaluator->aim = kept;
+    return arena->out_of_memory ? cz_no_memory(error, "the evaluator") : CZ_OK;
+}
+
 static CzStatus build(CzEvaluator *evaluator, const CzEvaluatorOptions *options, CzError *error) {
     const CzProblem *problem = evaluator->problem;
     CzArena *arena = &evaluator->arena;
+    CZ_TRY(begin_study(evaluator, options->aim, error));
     cz_problem_vehicles(problem, &evaluator->n_vehicle);
     CZ_TRY(cz_scenes_build(problem, arena, &evaluator->n_scene, &evaluator->scene, error));
     evaluator->n_variation = (int)cz_scenes_n_variation(evaluator->n_scene, evaluator->scene);
@@ -212,6 +237,8 @@ CzStatus cz_evaluator_build(const CzProblem *problem, const CzEvaluatorOptions *
 void cz_evaluator_free(CzEvaluator *evaluator) {
     if (evaluator == NULL)
         return;
+    if (evaluator->study != NULL)
+        cz_study_end(evaluator->study);
     for (int i = 0; i < evaluator->n_variant; i++)
         cz_variant_free(&evaluator->variant[i]);
     cz_arena_free(&evaluator->arena);

@@ -6,6 +6,7 @@
 #include "evaluate/design.h"
 #include "evaluate/evaluator.h"
 #include "evaluate/match.h"
+#include "evaluate/study.h"
 #include "evaluate/variant.h"
 
 /* A metric that the caller wants of every evaluation. */
@@ -19,7 +20,9 @@ struct CzEvaluator {
     CzArena arena;
     const CzProblem *problem;
     CzExecutor executor;
-    CzManner manner; /* of runs outside a search */
+    CzStudy *study;   /* of its runs, for workers of the executor */
+    CzManner manner;  /* of runs outside a search */
+    const CzAim *aim; /* NULL: that of the file */
     CzObstacles obstacles;
     int n_scene;
     CzScene *scene;            /* (n_scene) */
@@ -51,6 +54,12 @@ struct CzEvaluator {
     CzWanted *wanted;                  /* not of the arena (n_wanted) */
     const volatile sig_atomic_t *stop; /* a flag that ends an evaluation; NULL when none */
 };
+
+/* Describes an evaluator to a worker; makes it there (evaluator_study.c). */
+void cz_evaluator_describe(const void *evaluator, CzMemoryText *description);
+CZ_MUST_CHECK CzStatus cz_evaluator_open(CzReading *description, void **study, CzError *error);
+void cz_evaluator_close(void *study);
+const CzEvaluator *cz_evaluator_opened(void *study);
 
 /* Scenarios for the next variant, beside the first one. */
 static inline CzVariantScenes cz_evaluator_scenes(const CzEvaluator *evaluator) {

@@ -9,6 +9,7 @@
 #include "evaluate/compose.h"
 #include "evaluate/run_plan.h"
 #include "evaluate/tasks.h"
+#include "simulate/run_bytes.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -25,6 +26,7 @@ typedef struct Block {
     const CzVehicle *vehicle[BLOCK]; /* the vehicles of each design in all variations (n_point) */
     CzVariant own[BLOCK];            /* variants of designs that are read again (n_point) */
     bool is_refused[BLOCK];          /* designs that break a rule of files (n_point) */
+    CzVehicle *copies;               /* with the designs applied */
     CzRun **run;                     /* (n_point x n_scene) */
     const bool *some;                /* the only scenarios that are run; NULL for all (n_scene) */
     CzEvaluation *begun; /* evaluation of the only design in these scenarios, whose runs are taken
@@ -59,7 +61,52 @@ static CzStatus reread(int index, void *data, CzError *error) {
     return block->is_refused[index] ? CZ_OK : status;
 }
 
+/* ---- designs of a block ---------------------------------------------------------------------- */
+
+/* Applies the designs to copies of the vehicles, and rereads those of a fit; ended also after a
+ * failure. */
+static CzStatus begin_block(Block *block, CzError *error) {
+    const CzEvaluator *evaluator = block->evaluator;
+    const double *x = block->x;
+    const size_t n_point = (size_t)block->n_point;
+    const size_t n_vehicle = (size_t)(evaluator->n_variation * evaluator->n_vehicle);
+    block->copies = malloc(n_point * n_vehicle * sizeof *block->copies);
+    block->run = calloc(n_point * (size_t)evaluator->n_scene, sizeof(CzRun *));
+    if (block->copies == NULL || block->run == NULL)
+        return cz_no_memory(error, "the designs");
+    for (int i = 0; i < block->n_point; i++) {
+        block->combination[i] =
+            x != NULL
+                ? cz_design_combination(&evaluator->design, x + i * evaluator->design.n_variable)
+                : evaluator->own;
+        CzVehicle *vehicles = block->copies + (size_t)i * n_vehicle;
+        memcpy(vehicles, evaluator->variant[block->combination[i]].vehicles,
+               n_vehicle * sizeof *vehicles);
+        for (int v = 0; x != NULL && v < evaluator->n_variation; v++)
+            cz_design_apply(&evaluator->design, v, x + i * evaluator->design.n_variable,
+                            vehicles + v * evaluator->n_vehicle);
+        block->vehicle[i] = vehicles;
+    }
+    return evaluator->design.is_fit && x != NULL
+               ? cz_tasks_run(&evaluator->executor, block->n_point, reread, block, error)
+               : CZ_OK;
+}
+
+static void end_block(Block *block) {
+    for (int i = 0; block->run != NULL && i < block->n_point * block->evaluator->n_scene; i++)
+        cz_run_free(block->run[i]);
+    for (int i = 0; i < block->n_point; i++)
+        cz_variant_free(&block->own[i]);
+    cz_run_plan_free(&block->plan);
+    free(block->run);
+    free(block->copies);
+}
+
 /* ---- runs ------------------------------------------------------------------------------------ */
+
+static bool is_stopped(const CzEvaluator *evaluator) {
+    return evaluator->stop != NULL && *evaluator->stop != 0;
+}
 
 static CzSimulateOptions options_of(const Block *block) {
     CzSimulateOptions options = cz_simulate_options_default();
@@ -76,7 +123,7 @@ static CzStatus run_chunk(int index, void *data, CzError *error) {
     const CzEvaluator *evaluator = block->evaluator;
     const CzRunChunk *chunk = &block->plan.chunk[index];
     const CzRunItem *item = &block->plan.item[chunk->first];
-    if (evaluator->stop != NULL && *evaluator->stop != 0)
+    if (is_stopped(evaluator))
         return cz_fail(error, CZ_STATUS_INTERRUPTED, "the evaluation was interrupted");
     CzSimulateOptions options = options_of(block);
     if (block->manner.step_factor != 1)
@@ -116,21 +163,30 @@ static void take_begun(const Block *block) {
     cz_evaluation_free(block->begun);
 }
 
-/* Lists the runs of all designs that are not refused. */
+/* Model of a design in a scenario; NULL for one that is left out, and for a design that is refused.
+ */
+static const CzModel *model_of(const Block *block, int design, int scene) {
+    const CzVariant *own = &block->own[design];
+    const CzVariant *variant =
+        own->model != NULL ? own : &block->evaluator->variant[block->combination[design]];
+    return block->is_refused[design] ? NULL : variant->model[scene];
+}
+
+static void list_run(Block *block, int design, int scene) {
+    const CzModel *model = model_of(block, design, scene);
+    if (model != NULL && !block->evaluator->is_left_out[scene])
+        block->plan.item[block->plan.n_item++] =
+            (CzRunItem){.design = design,
+                        .scene = scene,
+                        .model = model,
+                        .length = block->evaluator->length[scene]};
+}
+
 static void list_runs(Block *block) {
-    const CzEvaluator *evaluator = block->evaluator;
-    for (int i = 0; i < block->n_point; i++) {
-        const bool is_reread = block->own[i].model != NULL;
-        const CzVariant *variant =
-            is_reread ? &block->own[i] : &evaluator->variant[block->combination[i]];
-        for (int s = 0; s < evaluator->n_scene && !block->is_refused[i]; s++)
-            if (variant->model[s] != NULL && !evaluator->is_left_out[s] && is_wanted(block, i, s))
-                block->plan.item[block->plan.n_item++] =
-                    (CzRunItem){.design = i,
-                                .scene = s,
-                                .model = variant->model[s],
-                                .length = evaluator->length[s]};
-    }
+    for (int i = 0; i < block->n_point; i++)
+        for (int s = 0; s < block->evaluator->n_scene; s++)
+            if (is_wanted(block, i, s))
+                list_run(block, i, s);
 }
 
 /* Records how long the runs of a scenario take, for the order of the next ones. */
@@ -141,21 +197,111 @@ static void note_lengths(const Block *block) {
             evaluator->length[i % evaluator->n_scene] = cz_run_summary(block->run[i])->simulated;
 }
 
-static CzStatus run_block(Block *block, CzError *error) {
+/* ---- chunks in workers ----------------------------------------------------------------------- */
+
+/* Designs of a chunk, each once. */
+typedef struct ChunkDesigns {
+    int n, design[BLOCK];
+} ChunkDesigns;
+
+/* Number of a design among those of the chunk, which it joins unless it is one of them. */
+static int number_of(ChunkDesigns *designs, int design) {
+    int i = 0;
+    while (i < designs->n && designs->design[i] != design)
+        i++;
+    if (i == designs->n)
+        designs->design[designs->n++] = design;
+    return i;
+}
+
+static bool request_chunk(int index, void *data, CzMemoryText *request) {
+    const Block *block = data;
     const CzEvaluator *evaluator = block->evaluator;
-    if (evaluator->design.is_fit && block->x != NULL)
-        CZ_TRY(cz_tasks_run(&evaluator->executor, block->n_point, reread, block, error));
+    const CzRunChunk *chunk = &block->plan.chunk[index];
+    ChunkDesigns designs = {0};
+    if (is_stopped(evaluator))
+        return false;
+    cz_put_int(request, block->record);
+    cz_put(request, &block->manner, 1, sizeof block->manner);
+    cz_put_int(request, chunk->n);
+    for (int i = 0; i < chunk->n; i++) {
+        const CzRunItem *item = &block->plan.item[chunk->first + i];
+        cz_put_int(request, number_of(&designs, item->design));
+        cz_put_int(request, item->scene);
+    }
+    cz_put_int(request, designs.n);
+    cz_put_int(request, block->x != NULL);
+    for (int i = 0; block->x != NULL && i < designs.n; i++)
+        cz_put_numbers(request, block->x + designs.design[i] * evaluator->design.n_variable,
+                       (size_t)evaluator->design.n_variable);
+    return true;
+}
+
+static CzStatus take_chunk(int index, void *data, CzReading *answer, CzError *error) {
+    Block *block = data;
+    const CzRunChunk *chunk = &block->plan.chunk[index];
+    const CzRunItem *item = &block->plan.item[chunk->first];
+    for (int i = 0; i < chunk->n; i++)
+        CZ_TRY(cz_run_get(answer,
+                          &block->run[item[i].design * block->evaluator->n_scene + item[i].scene],
+                          error));
+    return CZ_OK;
+}
+
+/* Runs a chunk whose designs are those of the block, and appends its runs. */
+static CzStatus answer_chunk(Block *block, int n, const int *place, CzMemoryText *answer,
+                             CzError *error) {
+    CZ_TRY(begin_block(block, error));
+    CZ_TRY(cz_run_plan_begin(&block->plan, n, error));
+    for (int i = 0; i < n; i++)
+        list_run(block, place[2 * i], place[2 * i + 1]);
+    if (block->plan.n_item < n) /* a design that only this process refuses */
+        return cz_fail(error, CZ_STATUS_INPUT, "a design breaks a rule");
+    block->plan.chunk[0] = (CzRunChunk){0, n};
+    CZ_TRY(run_chunk(0, block, error));
+    for (int i = 0; i < n; i++)
+        cz_run_put(answer, block->run[place[2 * i] * block->evaluator->n_scene + place[2 * i + 1]]);
+    return CZ_OK;
+}
+
+static CzStatus answer_runs(void *study, CzReading *request, CzMemoryText *answer, CzError *error) {
+    const CzEvaluator *evaluator = cz_evaluator_opened(study);
+    const size_t n_variable = (size_t)evaluator->design.n_variable;
+    CzArena arena = {0};
+    Block block = {.evaluator = evaluator};
+    block.record = cz_get_int(request) != 0;
+    cz_get(request, &block.manner, 1, sizeof block.manner);
+    const int n = cz_get_int(request);
+    const int *place = cz_get_items(request, &arena, 2 * n, sizeof *place);
+    block.n_point = cz_get_int(request);
+    if (cz_get_int(request) != 0)
+        block.x = cz_get_items(request, &arena, block.n_point, n_variable * sizeof(double));
+    CzStatus status = place == NULL || request->has_ended || arena.out_of_memory
+                          ? cz_no_memory(error, "a task")
+                          : answer_chunk(&block, n, place, answer, error);
+    end_block(&block);
+    cz_arena_free(&arena);
+    return status;
+}
+
+const CzStudyKind cz_study_of_runs = {cz_evaluator_open, answer_runs, cz_evaluator_close};
+
+/* ---- a block --------------------------------------------------------------------------------- */
+
+static CzStatus run_block(Block *block, CzError *error) {
+    static const CzTaskData chunks = {.request = request_chunk, .take = take_chunk};
+    const CzEvaluator *evaluator = block->evaluator;
+    CzTaskData plain = chunks;
+    plain.study = evaluator->study;
     const CzSimulateOptions options = options_of(block);
     const bool is_single = block->record || options.integrator != CZ_INTEGRATOR_ZHAI;
     CZ_TRY(cz_run_plan_begin(&block->plan, block->n_point * evaluator->n_scene, error));
     list_runs(block);
     CZ_TRY(cz_run_plan_cut(&block->plan, &options, is_single, evaluator->executor.n_place, error));
-    CZ_TRY(cz_tasks_run(&evaluator->executor, block->plan.n_chunk, run_chunk, block, error));
+    CZ_TRY(cz_tasks_share(&plain, block->plan.n_chunk, run_chunk, block, error));
     note_lengths(block);
     return CZ_OK;
 }
-
-/* ---- a block --------------------------------------------------------------------------------- */
 
 /* Evaluates each design of a finished block; keeps its runs if requested; fills the details, NaN
  * for designs that failed, unless `detail` is NULL. */
@@ -196,43 +342,18 @@ static CzStatus compose_block(Block *block, CzEvaluation *evaluation, double *de
 static CzStatus evaluate_block(const Block *settings, int n_point, const double *x,
                                CzEvaluation *evaluation, double *detail, CzError *error) {
     Block block = *settings;
-    const CzEvaluator *evaluator = block.evaluator;
     block.n_point = n_point;
     block.x = x;
-    block.record |= evaluator->matches.needs_record;
-    block.manner.brief &= evaluator->matches.n_item == 0;
-    const size_t n_vehicle = (size_t)(evaluator->n_variation * evaluator->n_vehicle);
-    CzVehicle *copies = malloc((size_t)n_point * n_vehicle * sizeof *copies);
-    block.run = calloc((size_t)n_point * (size_t)evaluator->n_scene, sizeof(CzRun *));
-    CzStatus status = CZ_OK;
-    if (copies == NULL || block.run == NULL)
-        status = cz_no_memory(error, "the designs");
-    for (int i = 0; i < n_point && status == CZ_OK; i++) {
-        block.combination[i] =
-            x != NULL
-                ? cz_design_combination(&evaluator->design, x + i * evaluator->design.n_variable)
-                : evaluator->own;
-        CzVehicle *vehicles = copies + (size_t)i * n_vehicle;
-        memcpy(vehicles, evaluator->variant[block.combination[i]].vehicles,
-               n_vehicle * sizeof *vehicles);
-        for (int v = 0; x != NULL && v < evaluator->n_variation; v++)
-            cz_design_apply(&evaluator->design, v, x + i * evaluator->design.n_variable,
-                            vehicles + v * evaluator->n_vehicle);
-        block.vehicle[i] = vehicles;
-    }
+    block.record |= block.evaluator->matches.needs_record;
+    block.manner.brief &= block.evaluator->matches.n_item == 0;
+    CzStatus status = begin_block(&block, error);
     if (status == CZ_OK && block.begun != NULL)
         take_begun(&block);
     if (status == CZ_OK)
         status = run_block(&block, error);
     if (status == CZ_OK)
         status = compose_block(&block, evaluation, detail, error);
-    for (int i = 0; block.run != NULL && i < n_point * evaluator->n_scene; i++)
-        cz_run_free(block.run[i]);
-    for (int i = 0; i < n_point; i++)
-        cz_variant_free(&block.own[i]);
-    cz_run_plan_free(&block.plan);
-    free(block.run);
-    free(copies);
+    end_block(&block);
     return status;
 }
 

@@ -14,6 +14,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "evaluate/tasks.h"
+#include "problem/problem_bytes.h"
 #include "simulate/batch.h"
 
 enum {
@@ -30,10 +31,22 @@ typedef struct Sampler {
     int *due;  /* samples to run (n_due) */
     int first; /* of the wave, in that list */
     int n_per_task;
+    CzStudy study;
 } Sampler;
 
 CzSampleOptions cz_sample_options_default(void) {
     return (CzSampleOptions){.seed = -1, .shard = 1, .n_shard = 1};
+}
+
+/* An empty sampling; NULL without memory. */
+static CzSampling *create(void) {
+    CzSampling *sampling = calloc(1, sizeof *sampling);
+    if (sampling != NULL)
+        sampling->parts = calloc(1, sizeof *sampling->parts);
+    if (sampling == NULL || sampling->parts != NULL)
+        return sampling;
+    cz_sampling_free(sampling);
+    return NULL;
 }
 
 /* ---- running --------------------------------------------------------------------------------- */
@@ -93,17 +106,152 @@ static CzStatus run_samples(const Sampler *sampler, int n, const int *sample, Cz
     return status;
 }
 
+/* The samples of a task; *n is their number. */
+static const int *samples_of(const Sampler *sampler, int index, int *n) {
+    const int first = sampler->first + index * sampler->n_per_task, left = sampler->n_due - first;
+    *n = left < sampler->n_per_task ? left : sampler->n_per_task;
+    return sampler->due + first;
+}
+
 static CzStatus run_task(int index, void *data, CzError *error) {
     const Sampler *sampler = data;
-    const int first = sampler->first + index * sampler->n_per_task, left = sampler->n_due - first;
-    const int n = left < sampler->n_per_task ? left : sampler->n_per_task;
-    const CzStatus status = run_samples(sampler, n, sampler->due + first, error);
+    int n;
+    const int *sample = samples_of(sampler, index, &n);
+    const CzStatus status = run_samples(sampler, n, sample, error);
     return status == CZ_STATUS_INTERRUPTED ? CZ_OK : status;
 }
 
 static bool is_stopped(const CzSampleOptions *options) {
     return options->stop != NULL && *options->stop != 0;
 }
+
+/* ---- samples in workers ---------------------------------------------------------------------- */
+
+/* What the results of a sample depend on. A worker draws the values again. */
+static void describe_sampler(const void *data, CzMemoryText *description) {
+    const Sampler *sampler = data;
+    const CzSampling *sampling = sampler->sampling;
+    cz_problem_put(description, sampling->problem);
+    cz_put_int(description, sampler->options->brief);
+    cz_put(description, &sampling->seed, 1, sizeof sampling->seed);
+    cz_put_int(description, sampling->n_sample);
+    cz_put_int(description, sampling->n_draw);
+    cz_put_int(description, sampling->n_check);
+    for (int i = 0; i < sampling->n_check; i++)
+        cz_put_numbers(description, &sampling->check[i].bare, 1);
+}
+
+static bool request_task(int index, void *data, CzMemoryText *request) {
+    const Sampler *sampler = data;
+    int n;
+    const int *sample = samples_of(sampler, index, &n);
+    cz_put_int(request, n);
+    cz_put(request, sample, (size_t)n, sizeof *sample);
+    return !is_stopped(sampler->options);
+}
+
+/* Margins and verdicts of a sample begin at this place. */
+static size_t row_of(const CzSampling *sampling, int sample) {
+    return (size_t)sample * (size_t)sampling->n_check;
+}
+
+static void put_sample(CzMemoryText *answer, const CzSampling *sampling, int sample) {
+    const size_t row = row_of(sampling, sample), n = (size_t)sampling->n_check;
+    cz_put(answer, &sampling->sample[sample], 1, sizeof *sampling->sample);
+    cz_put_text(answer, sampling->sample[sample].message);
+    cz_put_numbers(answer, sampling->margin + row, n);
+    cz_put(answer, sampling->verdict + row, n, sizeof *sampling->verdict);
+}
+
+static CzStatus get_sample(CzReading *answer, CzSampling *sampling, int sample, CzError *error) {
+    const size_t row = row_of(sampling, sample), n = (size_t)sampling->n_check;
+    CzSample *kept = &sampling->sample[sample];
+    cz_get(answer, kept, 1, sizeof *kept);
+    kept->message = cz_get_own_text(answer);
+    cz_get_numbers(answer, sampling->margin + row, n);
+    cz_get(answer, sampling->verdict + row, n, sizeof *sampling->verdict);
+    return answer->has_ended ? cz_no_memory(error, "the results of a sample") : CZ_OK;
+}
+
+static CzStatus take_task(int index, void *data, CzReading *answer, CzError *error) {
+    const Sampler *sampler = data;
+    int n;
+    const int *sample = samples_of(sampler, index, &n);
+    for (int k = 0; k < n; k++)
+        CZ_TRY(get_sample(answer, sampler->sampling, sample[k], error));
+    return CZ_OK;
+}
+
+/* The study of a worker. */
+typedef struct Opened {
+    CzProblemSteps problem;
+    Sampler sampler;
+    CzSampleOptions options;
+} Opened;
+
+static CzStatus open_draws(Opened *opened, CzReading *description, CzError *error) {
+    CzSampling *sampling = opened->sampler.sampling;
+    CzSampleOptions *options = &opened->options;
+    CZ_TRY(cz_problem_get(description, &opened->problem, error));
+    sampling->problem = cz_problem_of(&opened->problem);
+    options->brief = cz_get_int(description) != 0;
+    cz_get(description, &options->seed, 1, sizeof options->seed);
+    options->n_sample = cz_get_int(description);
+    CZ_TRY(cz_sampling_begin_draws(sampling, options, error));
+    CZ_TRY(cz_sampling_begin_checks(sampling, error));
+    const int n_draw = cz_get_int(description), n_check = cz_get_int(description);
+    if (n_draw != sampling->n_draw || n_check != sampling->n_check)
+        return cz_fail(error, CZ_STATUS_INPUT, "the samples have other draws or checks here");
+    for (int i = 0; i < n_check; i++)
+        cz_get_numbers(description, &sampling->check[i].bare, 1);
+    return CZ_OK;
+}
+
+static CzStatus open_samples(CzReading *description, void **study, CzError *error) {
+    Opened *opened = *study = calloc(1, sizeof *opened);
+    CzSampling *sampling = opened != NULL ? create() : NULL;
+    if (sampling == NULL)
+        return cz_no_memory(error, "a study");
+    CzEvaluatorOptions options = cz_evaluator_options_default();
+    options.n_job = 1;
+    opened->options = cz_sample_options_default();
+    opened->sampler = (Sampler){.options = &opened->options, .sampling = sampling};
+    CZ_TRY(open_draws(opened, description, error));
+    CZ_TRY(cz_evaluator_build(sampling->problem, &options, &sampling->parts->evaluator, error));
+    sampling->parts->cases.beside = sampling->parts->evaluator;
+    return CZ_OK;
+}
+
+static CzStatus answer_samples(void *study, CzReading *request, CzMemoryText *answer,
+                               CzError *error) {
+    const Opened *opened = study;
+    CzSampling *sampling = opened->sampler.sampling;
+    const int n = cz_get_int(request);
+    int sample[MOST_PER_TASK];
+    if (n < 1 || n > MOST_PER_TASK)
+        return cz_no_memory(error, "a task");
+    cz_get(request, sample, (size_t)n, sizeof *sample);
+    CZ_TRY(run_samples(&opened->sampler, n, sample, error));
+    for (int k = 0; k < n; k++) {
+        put_sample(answer, sampling, sample[k]);
+        if (sampling->sample[sample[k]].state == CZ_SAMPLE_INVALID)
+            return cz_fail(error, CZ_STATUS_INPUT, "the reader refuses a sample");
+    }
+    return CZ_OK;
+}
+
+static void close_samples(void *study) {
+    Opened *opened = study;
+    if (opened == NULL)
+        return;
+    cz_sampling_free(opened->sampler.sampling);
+    cz_problem_steps_free(&opened->problem);
+    free(opened);
+}
+
+const CzStudyKind cz_study_of_samples = {open_samples, answer_samples, close_samples};
+
+/* ---- all samples ----------------------------------------------------------------------------- */
 
 /* As many samples as fill the lanes, but not so many that a place has none. */
 static int count_per_task(const Sampler *sampler, int n_place) {
@@ -121,12 +269,17 @@ static CzStatus run_due(Sampler *sampler, CzError *error) {
     const CzSampleOptions *options = sampler->options;
     const CzExecutor executor = cz_executor_choose(options->executor, options->n_job);
     const int n_wave = executor.n_place * TASKS_PER_PLACE;
+    const CzTaskData plain = {&sampler->study, request_task, take_task};
     sampler->n_per_task = count_per_task(sampler, executor.n_place);
+    sampler->study = (CzStudy){.executor = executor,
+                               .kind = CZ_STUDY_OF_SAMPLES,
+                               .describe = describe_sampler,
+                               .data = sampler};
     while (sampler->first < sampler->n_due && !is_stopped(options)) {
         const int left =
             (sampler->n_due - sampler->first + sampler->n_per_task - 1) / sampler->n_per_task;
         const int n_task = left < n_wave ? left : n_wave;
-        CZ_TRY(cz_tasks_run(&executor, n_task, run_task, sampler, error));
+        CZ_TRY(cz_tasks_share(&plain, n_task, run_task, sampler, error));
         sampler->first += n_task * sampler->n_per_task;
         if (sampler->first > sampler->n_due)
             sampler->first = sampler->n_due;
@@ -149,6 +302,7 @@ static CzStatus run_all(Sampler *sampler, CzError *error) {
         if (sampling->sample[k].state == CZ_SAMPLE_NOT_RUN)
             sampler->due[sampler->n_due++] = k;
     const CzStatus status = run_due(sampler, error);
+    cz_study_end(&sampler->study);
     free(sampler->due);
     return status;
 }
@@ -193,17 +347,6 @@ static CzStatus sample(Sampler *sampler, CzError *error) {
     else
         CZ_TRY(run_all(sampler, error));
     return cz_sampling_conclude(sampler->sampling, error);
-}
-
-/* An empty sampling; NULL without memory. */
-static CzSampling *create(void) {
-    CzSampling *sampling = calloc(1, sizeof *sampling);
-    if (sampling != NULL)
-        sampling->parts = calloc(1, sizeof *sampling->parts);
-    if (sampling == NULL || sampling->parts != NULL)
-        return sampling;
-    cz_sampling_free(sampling);
-    return NULL;
 }
 
 /* Passes a sampling on, or frees it where the status is a failure; returns the status. */

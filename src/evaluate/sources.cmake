@@ -11,6 +11,7 @@ set(CZ_SOURCES_evaluate
     draws.c
     devices.c
     evaluator_parts.c
+    evaluator_study.c
     explain.c
     activation.c
     candidate_changes.c
@@ -31,6 +32,7 @@ set(CZ_SOURCES_evaluate
     sampling_statistics.c
     scene.c
     settings.c
+    study.c
     sweep.c
     sweep_axis.c
     tasks.c

@@ -28,6 +28,7 @@ typedef struct Sweeping {
     CzSweep *sweep;
     int first;           /* point of the wave */
     CzError first_error; /* of the first point whose problem is invalid */
+    CzStudy study;
 } Sweeping;
 
 /* ---- one point ------------------------------------------------------------------------------- */
@@ -217,17 +218,124 @@ static bool is_stopped(const CzSweepOptions *options) {
     return options->stop != NULL && *options->stop != 0;
 }
 
+/* ---- points in workers ----------------------------------------------------------------------- */
+
+/* Paths of a sweep are those of the file, which each point reads again, so a worker reads it too.
+ */
+static void describe_sweep(const void *data, CzMemoryText *description) {
+    const Sweeping *sweeping = data;
+    const CzSweepOptions *options = sweeping->options;
+    cz_put_text(description, sweeping->file);
+    cz_put_int(description, options->text != NULL);
+    cz_put_int(description, (int)options->n_text);
+    cz_put(description, options->text, options->n_text, 1);
+    cz_put_texts(description, sweeping->problem_options->n_set, sweeping->problem_options->set);
+    cz_put_text(description, sweeping->problem_options->share_folder);
+    cz_put_int(description, options->n_axis);
+    cz_put(description, options->axis, (size_t)options->n_axis, sizeof *options->axis);
+    cz_put_texts(description, options->n_metric, options->metric);
+    cz_put_texts(description, options->n_check, options->check);
+    cz_put_text(description, options->scenario);
+}
+
+static bool request_point(int index, void *data, CzMemoryText *request) {
+    const Sweeping *sweeping = data;
+    cz_put_int(request, sweeping->first + index);
+    return !is_stopped(sweeping->options);
+}
+
+static CzStatus take_point(int index, void *data, CzReading *answer, CzError *error) {
+    const Sweeping *sweeping = data;
+    CzSweepPoint *point = &sweeping->sweep->point[sweeping->first + index];
+    cz_get(answer, point, 1, sizeof *point);
+    return answer->has_ended ? cz_no_memory(error, "a point") : CZ_OK;
+}
+
+/* The study of a worker. */
+typedef struct Opened {
+    CzArena arena; /* of the description */
+    CzProblemOptions problem_options;
+    CzSweepOptions options;
+    Sweeping sweeping;
+} Opened;
+
+static CzStatus open_sweep(CzReading *description, void **study, CzError *error) {
+    Opened *opened = *study = calloc(1, sizeof *opened);
+    if (opened == NULL)
+        return cz_no_memory(error, "a study");
+    CzArena *arena = &opened->arena;
+    CzProblemOptions *problem_options = &opened->problem_options;
+    CzSweepOptions *options = &opened->options;
+    *options = cz_sweep_options_default();
+    Sweeping *sweeping = &opened->sweeping;
+    *sweeping = (Sweeping){.problem_options = problem_options, .options = options};
+    sweeping->file = cz_get_text(description, arena);
+    const bool has_text = cz_get_int(description) != 0;
+    const int n_text = cz_get_int(description);
+    const char *text = cz_get_items(description, arena, n_text, 1);
+    options->text = has_text ? text : NULL;
+    options->n_text = (size_t)n_text;
+    problem_options->set = cz_get_texts(description, arena, &problem_options->n_set);
+    problem_options->share_folder = cz_get_text(description, arena);
+    options->n_axis = cz_get_int(description);
+    options->axis = cz_get_items(description, arena, options->n_axis, sizeof *options->axis);
+    options->metric = cz_get_texts(description, arena, &options->n_metric);
+    options->check = cz_get_texts(description, arena, &options->n_check);
+    options->scenario = cz_get_text(description, arena);
+    sweeping->sweep = calloc(1, sizeof *sweeping->sweep);
+    if (sweeping->sweep == NULL || arena->out_of_memory || description->has_ended)
+        return cz_no_memory(error, "a study");
+    return prepare(sweeping, error);
+}
+
+static CzStatus answer_point(void *study, CzReading *request, CzMemoryText *answer,
+                             CzError *error) {
+    Sweeping *sweeping = &((Opened *)study)->sweeping;
+    const CzSweep *sweep = sweeping->sweep;
+    const int i = cz_get_int(request);
+    if (i < 0 || i >= sweep->n_point)
+        return cz_no_memory(error, "a task");
+    CzError mistake = {0}; /* a point that is refused writes to it */
+    sweeping->first = i;
+    const CzStatus status = run_point(0, sweeping, &mistake);
+    if (status != CZ_OK)
+        *error = mistake;
+    CZ_TRY(status);
+    if (sweep->point[i].state == CZ_SWEEP_INVALID)
+        return cz_fail(error, CZ_STATUS_INPUT, "the reader refuses a point");
+    cz_put(answer, &sweep->point[i], 1, sizeof sweep->point[i]);
+    return CZ_OK;
+}
+
+static void close_sweep(void *study) {
+    Opened *opened = study;
+    if (opened == NULL)
+        return;
+    cz_sweep_free(opened->sweeping.sweep);
+    cz_arena_free(&opened->arena);
+    free(opened);
+}
+
+const CzStudyKind cz_study_of_points = {open_sweep, answer_point, close_sweep};
+
+/* ---- the sweep ------------------------------------------------------------------------------- */
+
 static CzStatus run_all(Sweeping *sweeping, CzError *error) {
     const CzSweepOptions *options = sweeping->options;
     const CzExecutor executor = cz_executor_choose(options->executor, options->n_job);
+    const CzTaskData plain = {&sweeping->study, request_point, take_point};
     CzSweep *sweep = sweeping->sweep;
     const int n_wave = executor.n_place * POINTS_PER_PLACE;
+    sweeping->study = (CzStudy){.executor = executor,
+                                .kind = CZ_STUDY_OF_POINTS,
+                                .describe = describe_sweep,
+                                .data = sweeping};
     if (options->recall != NULL)
         CZ_TRY(options->recall(sweep, options->recall_data, error));
     sweeping->first = sweep->begin;
     while (sweeping->first < sweep->end && !is_stopped(options)) {
         const int left = sweep->end - sweeping->first, n = left < n_wave ? left : n_wave;
-        CZ_TRY(cz_tasks_run(&executor, n, run_point, sweeping, error));
+        CZ_TRY(cz_tasks_share(&plain, n, run_point, sweeping, error));
         sweeping->first += n;
         if (options->progress != NULL)
             options->progress(sweeping->first - sweep->begin, sweep->end - sweep->begin,
@@ -286,6 +394,7 @@ CzStatus cz_sweep(const char *file, const CzProblemOptions *problem_options,
     CzStatus status = prepare(&sweeping, error);
     if (status == CZ_OK)
         status = run_all(&sweeping, error);
+    cz_study_end(&sweeping.study);
     if (status == CZ_OK)
         status = conclude(&sweeping, error);
     (*sweep)->wall_s = cz_clock() - started;

@@ -4,6 +4,7 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 enum { MOST_THREADS = 64 };
@@ -11,6 +12,7 @@ enum { MOST_THREADS = 64 };
 struct CzTasks {
     int n;
     CzTaskFunction function;
+    const CzTaskData *plain; /* NULL for tasks of this process alone */
     void *data;
     atomic_int next; /* the first task that no thread has taken */
     pthread_t thread[MOST_THREADS];
@@ -43,10 +45,11 @@ void cz_task_run(CzTasks *tasks, int task) {
         note_failure(tasks, task, status, &error);
 }
 
-CzStatus cz_tasks_run(const CzExecutor *executor, int n_task, CzTaskFunction function, void *data,
-                      CzError *error) {
+static CzStatus run(const CzExecutor *executor, const CzTaskData *plain, int n_task,
+                    CzTaskFunction function, void *data, CzError *error) {
     CzTasks tasks = {.n = n_task,
                      .function = function,
+                     .plain = plain,
                      .data = data,
                      .lock = PTHREAD_MUTEX_INITIALIZER,
                      .failed = n_task,
@@ -56,6 +59,56 @@ CzStatus cz_tasks_run(const CzExecutor *executor, int n_task, CzTaskFunction fun
     CZ_TRY(executor->submit(executor, &tasks, error));
     CZ_TRY(executor->wait(executor, &tasks, error));
     return tasks.status;
+}
+
+CzStatus cz_tasks_run(const CzExecutor *executor, int n_task, CzTaskFunction function, void *data,
+                      CzError *error) {
+    return run(executor, NULL, n_task, function, data, error);
+}
+
+/* ---- tasks as plain data --------------------------------------------------------------------- */
+
+CzStatus cz_tasks_share(const CzTaskData *plain, int n_task, CzTaskFunction function, void *data,
+                        CzError *error) {
+    CZ_TRY(cz_study_begin(plain->study, error));
+    return run(&plain->study->executor, plain->study->is_known ? plain : NULL, n_task, function,
+               data, error);
+}
+
+void cz_bytes_free(CzBytes *bytes) {
+    free(bytes->byte);
+    *bytes = (CzBytes){0};
+}
+
+bool cz_task_request(CzTasks *tasks, int task, CzBytes *request) {
+    CzMemoryText text = {0};
+    bool is_made = tasks->plain != NULL;
+    if (is_made) {
+        cz_study_put(&text, tasks->plain->study);
+        is_made = tasks->plain->request(task, tasks->data, &text) && !text.failed;
+    }
+    *request = (CzBytes){.n = text.n, .byte = text.text};
+    if (!is_made)
+        cz_bytes_free(request);
+    return is_made;
+}
+
+void cz_task_take(CzTasks *tasks, int task, const CzBytes *answer) {
+    CzReading reading = {.next = answer->byte, .n_left = answer->n};
+    CzError error = {0};
+    CzStatus status = (CzStatus)cz_get_int(&reading);
+    if (reading.has_ended)
+        status = cz_no_memory(&error, "the results of a task");
+    if ((int)status == CZ_RUN_HERE) {
+        cz_task_run(tasks, task);
+        return;
+    }
+    if (status == CZ_OK)
+        status = tasks->plain->take(task, tasks->data, &reading, &error);
+    else if (!reading.has_ended)
+        cz_get(&reading, &error, 1, sizeof error);
+    if (status != CZ_OK)
+        note_failure(tasks, task, status, &error);
 }
 
 /* ---- threads --------------------------------------------------------------------------------- */

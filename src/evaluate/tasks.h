@@ -3,7 +3,7 @@
 #ifndef CZ_EVALUATE_TASKS_H
 #define CZ_EVALUATE_TASKS_H
 
-#include "crushzone/executor.h"
+#include "evaluate/study.h"
 
 /* One task; `index` counts from 0. */
 typedef CzStatus (*CzTaskFunction)(int index, void *data, CzError *error);
@@ -13,6 +13,19 @@ typedef CzStatus (*CzTaskFunction)(int index, void *data, CzError *error);
  */
 CZ_MUST_CHECK CzStatus cz_tasks_run(const CzExecutor *executor, int n_task, CzTaskFunction function,
                                     void *data, CzError *error);
+
+/* Tasks as plain data. */
+typedef struct CzTaskData {
+    CzStudy *study; /* of whose executor's workers run them */
+    /* Appends what a worker needs for a task; false where it must be run here. */
+    bool (*request)(int index, void *data, CzMemoryText *request);
+    /* Keeps the results of a task. */
+    CzStatus (*take)(int index, void *data, CzReading *answer, CzError *error);
+} CzTaskData;
+
+/* The same for tasks that workers may run. */
+CZ_MUST_CHECK CzStatus cz_tasks_share(const CzTaskData *plain, int n_task, CzTaskFunction function,
+                                      void *data, CzError *error);
 
 /* The executor that is given, else n_job threads. */
 CzExecutor cz_executor_choose(const CzExecutor *given, int n_job);

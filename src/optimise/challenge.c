@@ -120,14 +120,33 @@ static CzStatus list_checks(CzChallenge *challenge, const CzCaseBench *unchanged
     return CZ_OK;
 }
 
-/* Runs the design without changes, and begins the results of the checks with its margins. */
-static CzStatus begin_checks(CzChallenge *challenge, const CzCaseBench *bench, CzError *error) {
+/* The listed checks without results. */
+static CzStatus begin_checks(CzChallenge *challenge, CzError *error) {
     CzChallengeParts *parts = challenge->parts;
-    CZ_TRY(list_checks(challenge, bench, error));
     const size_t n = (size_t)challenge->n_check;
     challenge->check = cz_arena_allocate(&parts->arena, n + 1, sizeof *challenge->check);
-    CzCheckResult *result = cz_arena_allocate(&parts->arena, n + 1, sizeof *result);
-    if (challenge->check == NULL || result == NULL)
+    if (challenge->check == NULL)
+        return cz_no_memory(error, "the checks of a challenge");
+    for (int i = 0; i < challenge->n_check; i++) {
+        const CzCaseCheck *check = &parts->checks.check[i];
+        const int scenario = challenge->scenario[check->scenario];
+        challenge->check[i] =
+            (CzChallengedCheck){.name = check->name,
+                                .scenario = cz_problem_scenario_name(challenge->problem, scenario),
+                                .is_flag = check->is_flag,
+                                .nominal = NAN,
+                                .least = NAN,
+                                .worst = -1};
+    }
+    return CZ_OK;
+}
+
+/* Runs the design without changes, for the margins that the checks have there. */
+static CzStatus run_nominal(CzChallenge *challenge, const CzCaseBench *bench, CzError *error) {
+    CzChallengeParts *parts = challenge->parts;
+    CzCheckResult *result =
+        cz_arena_allocate(&parts->arena, (size_t)challenge->n_check + 1, sizeof *result);
+    if (result == NULL)
         return cz_no_memory(error, "the checks of a challenge");
     CzEvaluation evaluation = {0};
     CzJudgedCase judged = {0};
@@ -137,27 +156,19 @@ static CzStatus begin_checks(CzChallenge *challenge, const CzCaseBench *bench, C
     if (status == CZ_OK)
         status = cz_challenge_judge(challenge, bench, &evaluation, 0, result, &judged, error);
     free(judged.message);
-    for (int i = 0; i < challenge->n_check; i++) {
-        const CzCaseCheck *check = &parts->checks.check[i];
-        const int scenario = challenge->scenario[check->scenario];
-        challenge->check[i] =
-            (CzChallengedCheck){.name = check->name,
-                                .scenario = cz_problem_scenario_name(challenge->problem, scenario),
-                                .is_flag = check->is_flag,
-                                .nominal = status == CZ_OK ? result[i].margin : NAN,
-                                .least = NAN,
-                                .worst = -1};
-    }
+    for (int i = 0; status == CZ_OK && i < challenge->n_check; i++)
+        challenge->check[i].nominal = result[i].margin;
     cz_evaluation_free(&evaluation);
     return status;
 }
 
-static CzStatus begin(CzChallenge *challenge, CzError *error) {
+CzStatus cz_challenge_unchanged(CzChallenge *challenge, CzCaseBench *bench, CzError *error) {
     const CzProblem *problem = challenge->problem;
     const CzUncertainty *uncertainty = &cz_problem_input(problem)->uncertainty;
     CzChallengeParts *parts = challenge->parts;
     const CzTexts *names =
         uncertainty->challenged.n_text > 0 ? &uncertainty->challenged : &uncertainty->scenarios;
+    *bench = (CzCaseBench){0};
     CZ_TRY(cz_cases_scenarios(problem, names, &parts->arena, &challenge->n_scenario,
                               &challenge->scenario, error));
     CZ_TRY(list_draws(challenge, error));
@@ -170,14 +181,25 @@ static CzStatus begin(CzChallenge *challenge, CzError *error) {
                              .draw = challenge->draw,
                              .word = "challenge",
                              .n_earlier = cz_cases_n_earlier(problem, "challenge")};
-    CzCaseBench bench;
     const int unchanged = CZ_UNCHANGED_CASE;
-    CzStatus status = cz_case_bench_build(&parts->cases, 1, &unchanged, NULL, &bench, error);
-    if (status == CZ_OK)
-        status = begin_checks(challenge, &bench, error);
-    cz_case_bench_free(&bench);
-    CZ_TRY(status);
+    return cz_case_bench_build(&parts->cases, 1, &unchanged, NULL, bench, error);
+}
+
+CzStatus cz_challenge_begin(CzChallenge *challenge, const CzCaseBench *unchanged, CzError *error) {
+    CZ_TRY(list_checks(challenge, unchanged, error));
+    CZ_TRY(begin_checks(challenge, error));
     return make_room(challenge, error);
+}
+
+static CzStatus begin(CzChallenge *challenge, CzError *error) {
+    CzCaseBench bench;
+    CzStatus status = cz_challenge_unchanged(challenge, &bench, error);
+    if (status == CZ_OK)
+        status = cz_challenge_begin(challenge, &bench, error);
+    if (status == CZ_OK)
+        status = run_nominal(challenge, &bench, error);
+    cz_case_bench_free(&bench);
+    return status;
 }
 
 /* ---- the challenge --------------------------------------------------------------------------- */
@@ -218,24 +240,33 @@ static CzStatus challenge_design(CzChallenge *challenge, CzError *error) {
     return CZ_OK;
 }
 
-CzStatus cz_challenge(const CzProblem *problem, const double *x, const CzChallengeOptions *options,
-                      CzChallenge **challenge, CzError *error) {
-    const double started = cz_clock();
+CzChallenge *cz_challenge_create(const CzProblem *problem, const CzChallengeOptions *options) {
     CzChallenge *made = calloc(1, sizeof *made);
     CzChallengeParts *parts = calloc(1, sizeof *parts);
-    *challenge = NULL;
     if (made == NULL || parts == NULL) {
         free(made);
         free(parts);
-        return cz_no_memory(error, "a challenge");
+        return NULL;
     }
     made->problem = problem;
     made->parts = parts;
-    parts->options = options != NULL ? *options : cz_challenge_options_default();
-    parts->executor = cz_executor_choose(parts->options.executor, parts->options.n_job);
-    parts->x = x;
+    parts->options = *options;
     atomic_flag_clear(&parts->is_reporting);
+    return made;
+}
+
+CzStatus cz_challenge(const CzProblem *problem, const double *x, const CzChallengeOptions *options,
+                      CzChallenge **challenge, CzError *error) {
+    const double started = cz_clock();
+    const CzChallengeOptions given = options != NULL ? *options : cz_challenge_options_default();
+    CzChallenge *made = cz_challenge_create(problem, &given);
+    *challenge = NULL;
+    if (made == NULL)
+        return cz_no_memory(error, "a challenge");
+    made->parts->x = x;
+    made->parts->study = cz_challenge_study(made, cz_executor_choose(given.executor, given.n_job));
     const CzStatus status = challenge_design(made, error);
+    cz_study_end(&made->parts->study);
     made->wall_s = cz_clock() - started;
     if (status == CZ_OK)
         *challenge = made;

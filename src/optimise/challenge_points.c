@@ -10,8 +10,6 @@
 #include "evaluate/compose.h"
 #include "evaluate/tasks.h"
 
-enum { POINTS_PER_TASK = 4 };
-
 /* ---- values ---------------------------------------------------------------------------------- */
 
 double cz_challenge_value_at(const CzDraw *draw, double u) {
@@ -163,8 +161,9 @@ static CzStatus run_bench(CzChallenge *challenge, const CzCaseBench *bench, int 
     return status;
 }
 
-/* Counts points that were run. One thread at a time reports. */
-static void report(CzChallengeParts *parts, int n) {
+/* One thread at a time reports. */
+void cz_challenge_report(CzChallenge *challenge, int n) {
+    CzChallengeParts *parts = challenge->parts;
     const int n_done = atomic_fetch_add(&parts->n_done, n) + n;
     if (parts->options.progress == NULL || atomic_flag_test_and_set(&parts->is_reporting))
         return;
@@ -176,7 +175,7 @@ static void report(CzChallengeParts *parts, int n) {
 CzStatus cz_challenge_run(CzChallenge *challenge, int first, int n, CzError *error) {
     CzCaseBench bench;
     CzError mistake = {0};
-    int number[POINTS_PER_TASK];
+    int number[CZ_POINTS_PER_TASK];
     for (int k = 0; k < n; k++) {
         number[k] = first + k;
         set_values(challenge, first + k);
@@ -197,25 +196,20 @@ CzStatus cz_challenge_run(CzChallenge *challenge, int first, int n, CzError *err
     }
     cz_case_bench_free(&bench);
     if (status == CZ_OK && n > 0)
-        report(challenge->parts, n);
+        cz_challenge_report(challenge, n);
     return status;
 }
 
-/* Points that are run side by side. */
-typedef struct Batch {
-    CzChallenge *challenge;
-    int first, n;
-} Batch;
-
 static CzStatus run_task(int index, void *data, CzError *error) {
-    const Batch *batch = data;
-    const int first = index * POINTS_PER_TASK, left = batch->n - first;
-    return cz_challenge_run(batch->challenge, batch->first + first,
-                            left < POINTS_PER_TASK ? left : POINTS_PER_TASK, error);
+    const CzPointBatch *batch = data;
+    int n;
+    const int first = cz_points_of(batch, index, &n);
+    return cz_challenge_run(batch->challenge, first, n, error);
 }
 
 CzStatus cz_challenge_run_batch(CzChallenge *challenge, int first, int n, CzError *error) {
-    Batch batch = {.challenge = challenge, .first = first, .n = n};
-    return cz_tasks_run(&challenge->parts->executor, (n + POINTS_PER_TASK - 1) / POINTS_PER_TASK,
-                        run_task, &batch, error);
+    CzPointBatch batch = {.challenge = challenge, .first = first, .n = n};
+    const CzTaskData plain = cz_points_as_data(challenge);
+    return cz_tasks_share(&plain, (n + CZ_POINTS_PER_TASK - 1) / CZ_POINTS_PER_TASK, run_task,
+                          &batch, error);
 }

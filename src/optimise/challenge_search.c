@@ -203,19 +203,6 @@ static bool is_stopped(const CzChallenge *challenge) {
 
 /* ---- adversaries ----------------------------------------------------------------------------- */
 
-/* One algorithm on one check, with points of its own. */
-typedef struct Adversary {
-    CzChallenge *challenge;
-    int check;             /* -1: the smallest margin of all */
-    const char *algorithm; /* of NLopt */
-    const char *phase;
-    int start;         /* point where it begins */
-    int first, n;      /* its points, and their limit */
-    int n_run;         /* of these that were run */
-    double first_step; /* share of the range; 0: chosen by the algorithm */
-    double *scaled;    /* scratch (n_draw) */
-} Adversary;
-
 /* A scaled value on a fine grid, so that an algorithm that comes back meets the same point. */
 static double on_grid(double u) {
     return round(u * 0x1p20) * 0x1p-20;
@@ -224,7 +211,7 @@ static double on_grid(double u) {
 /* Evaluates points of an adversary; those that are known are not run again. */
 static CzStatus evaluate(void *data, int n_point, const double *u, double *objective,
                          double *constraint, double *detail, CzError *error) {
-    Adversary *own = data;
+    CzAdversary *own = data;
     CzChallenge *challenge = own->challenge;
     const size_t n_draw = (size_t)challenge->n_draw;
     (void)constraint;
@@ -251,8 +238,7 @@ static CzStatus evaluate(void *data, int n_point, const double *u, double *objec
     return CZ_OK;
 }
 
-static CzStatus run_adversary(int index, void *data, CzError *error) {
-    Adversary *own = &((Adversary *)data)[index];
+CzStatus cz_adversary_run(CzAdversary *own, CzError *error) {
     CzChallenge *challenge = own->challenge;
     const int n = challenge->n_draw;
     CzArena arena = {0};
@@ -292,8 +278,13 @@ static CzStatus run_adversary(int index, void *data, CzError *error) {
     return status;
 }
 
+static CzStatus run_task(int index, void *data, CzError *error) {
+    CzAdversary *adversary = data;
+    return cz_adversary_run(&adversary[index], error);
+}
+
 /* Runs adversaries side by side; each has its share of the points. */
-static CzStatus run_round(CzChallenge *challenge, int n_adversary, Adversary *adversary,
+static CzStatus run_round(CzChallenge *challenge, int n_adversary, CzAdversary *adversary,
                           CzError *error) {
     int next = challenge->n_point;
     for (int a = 0; a < n_adversary; a++) {
@@ -301,8 +292,8 @@ static CzStatus run_round(CzChallenge *challenge, int n_adversary, Adversary *ad
         adversary[a].first = next;
         next += adversary[a].n;
     }
-    const CzStatus status =
-        cz_tasks_run(&challenge->parts->executor, n_adversary, run_adversary, adversary, error);
+    const CzTaskData plain = cz_adversaries_as_data(challenge);
+    const CzStatus status = cz_tasks_share(&plain, n_adversary, run_task, adversary, error);
     for (int a = 0; a < n_adversary; a++)
         for (int k = 0; k < adversary[a].n; k++) {
             const int from = adversary[a].first + k;
@@ -372,7 +363,7 @@ static int limited(const CzChallenge *challenge, double share) {
 static CzStatus search_global(CzChallenge *challenge, CzError *error) {
     const int n = limited(challenge, global_share), best = best_point(challenge, -1);
     const int n_population = 10 * (challenge->n_draw + 1);
-    Adversary adversary[2] = {{.algorithm = "GN_DIRECT_L", .n = n}, {.algorithm = "GN_CRS2_LM"}};
+    CzAdversary adversary[2] = {{.algorithm = "GN_DIRECT_L", .n = n}, {.algorithm = "GN_CRS2_LM"}};
     const int n_adversary = n / 2 > n_population ? 2 : 1;
     if (best < 0)
         return CZ_OK;
@@ -390,7 +381,7 @@ static CzStatus search_global(CzChallenge *challenge, CzError *error) {
 static CzStatus search_local(CzChallenge *challenge, int round, CzError *error) {
     static const double first_steps[] = {0.2, 0.05, 0.4};
     int check[MOST_ADVERSARIES];
-    Adversary adversary[MOST_ADVERSARIES];
+    CzAdversary adversary[MOST_ADVERSARIES];
     const int budget = (left_of(challenge) + 1) / 2;
     const int affords = budget / (RUNS_PER_DRAW * (challenge->n_draw + 1));
     const int most = affords < 1 ? 1 : affords > MOST_ADVERSARIES ? MOST_ADVERSARIES : affords;
@@ -399,12 +390,12 @@ static CzStatus search_local(CzChallenge *challenge, int round, CzError *error) 
     const int n = most < n_ranked ? most : n_ranked;
     for (int a = 0; a < n; a++) {
         const int own = check[(round * n + a) % n_ranked];
-        adversary[a] = (Adversary){.check = own,
-                                   .algorithm = "LN_COBYLA",
-                                   .phase = "local",
-                                   .start = best_point(challenge, own),
-                                   .n = budget / n,
-                                   .first_step = first_steps[round % 3]};
+        adversary[a] = (CzAdversary){.check = own,
+                                     .algorithm = "LN_COBYLA",
+                                     .phase = "local",
+                                     .start = best_point(challenge, own),
+                                     .n = budget / n,
+                                     .first_step = first_steps[round % 3]};
     }
     return n > 0 ? run_round(challenge, n, adversary, error) : CZ_OK;
 }

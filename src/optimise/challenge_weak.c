@@ -125,21 +125,11 @@ static void choose(Finder *finder, int class, bool first_pass, int most) {
 
 /* ---- full runs ------------------------------------------------------------------------------- */
 
-/* A full run of a chosen point. */
-typedef struct FullRun {
-    CzChallenge *challenge;
-    Pair pair;
-    CzCaseBench bench; /* owns the texts of the result */
-    CzCheckResult *result;
-    CzJudgedCase judged;
-} FullRun;
-
-static CzStatus run_full(int index, void *data, CzError *error) {
-    FullRun *run = &((FullRun *)data)[index];
+CzStatus cz_full_run(CzFullRun *run, CzError *error) {
     CzChallenge *challenge = run->challenge;
     CzEvaluation evaluation = {0};
     CzError mistake = {0};
-    CzStatus status = cz_case_bench_build(&challenge->parts->cases, 1, &run->pair.point,
+    CzStatus status = cz_case_bench_build(&challenge->parts->cases, 1, &run->point,
                                           challenge->value, &run->bench, &mistake);
     if (status == CZ_STATUS_INPUT) {
         run->judged =
@@ -163,14 +153,26 @@ static CzStatus run_full(int index, void *data, CzError *error) {
     return status;
 }
 
+void cz_full_run_free(CzFullRun *run) {
+    free(run->judged.message);
+    free(run->result);
+    cz_case_bench_free(&run->bench);
+    cz_arena_free(&run->texts);
+}
+
+static CzStatus run_task(int index, void *data, CzError *error) {
+    CzFullRun *run = data;
+    return cz_full_run(&run[index], error);
+}
+
 static const char *keep(CzChallenge *challenge, const char *text) {
     return text == NULL ? NULL : cz_arena_copy_text(&challenge->parts->arena, text, strlen(text));
 }
 
 /* The check for which a full run is listed: that of its pair where it fails, else the worst; of a
  * run that failed none that passes. */
-static int check_of(const FullRun *run) {
-    const int own = run->pair.check, worst = run->judged.check;
+static int check_of(const CzFullRun *run, const Pair *pair) {
+    const int own = pair->check, worst = run->judged.check;
     if (run->result == NULL)
         return -1;
     if (own >= 0 &&
@@ -179,10 +181,10 @@ static int check_of(const FullRun *run) {
     return worst >= 0 && run->result[worst].verdict == CZ_VERDICT_FAIL ? worst : -1;
 }
 
-static CzStatus add_weak(CzChallenge *challenge, FullRun *run, CzError *error) {
+static CzStatus add_weak(CzChallenge *challenge, CzFullRun *run, const Pair *pair, CzError *error) {
     CzWeakPoint *weak = &challenge->weak[challenge->n_weak++];
-    const int check = check_of(run);
-    *weak = (CzWeakPoint){.point = run->pair.point,
+    const int check = check_of(run, pair);
+    *weak = (CzWeakPoint){.point = pair->point,
                           .state = run->judged.state,
                           .verdict = run->judged.verdict,
                           .beyond_validity = run->judged.beyond_validity,
@@ -213,29 +215,30 @@ static CzStatus add_weak(CzChallenge *challenge, FullRun *run, CzError *error) {
 static CzStatus confirm(Finder *finder, int first, bool lists_passing, CzError *error) {
     CzChallenge *challenge = finder->challenge;
     const int n = finder->n_chosen - first;
-    FullRun *run = calloc((size_t)n + 1, sizeof *run);
+    const Pair *chosen = &finder->chosen[first];
+    CzFullRun *run = calloc((size_t)n + 1, sizeof *run);
     if (run == NULL)
         return cz_no_memory(error, "the weak points");
     for (int i = 0; i < n; i++) {
         run[i].challenge = challenge;
-        run[i].pair = finder->chosen[first + i];
-        finder->is_tried[run[i].pair.point] = true;
+        run[i].point = chosen[i].point;
+        finder->is_tried[run[i].point] = true;
     }
-    CzStatus status = cz_tasks_run(&challenge->parts->executor, n, run_full, run, error);
+    const CzTaskData plain = cz_full_runs_as_data(challenge);
+    CzStatus status = cz_tasks_share(&plain, n, run_task, run, error);
     finder->n_chosen = first;
     for (int i = 0; i < n; i++) {
+        Pair pair = chosen[i]; /* its place may be taken by an earlier one that remains */
         const bool fails = run[i].judged.verdict == CZ_VERDICT_FAIL;
         challenge->is_broken |= fails;
         if (run[i].judged.state != CZ_SAMPLE_DONE)
-            run[i].pair = (Pair){.point = run[i].pair.point, .check = -1};
-        const bool is_new = run[i].pair.check >= 0 || !is_covered(finder, &run[i].pair, true);
+            pair = (Pair){.point = pair.point, .check = -1};
+        const bool is_new = pair.check >= 0 || !is_covered(finder, &pair, true);
         if (status == CZ_OK && (fails || lists_passing) && is_new) {
-            finder->chosen[finder->n_chosen++] = run[i].pair;
-            status = add_weak(challenge, &run[i], error);
+            finder->chosen[finder->n_chosen++] = pair;
+            status = add_weak(challenge, &run[i], &pair, error);
         }
-        free(run[i].judged.message);
-        free(run[i].result);
-        cz_case_bench_free(&run[i].bench);
+        cz_full_run_free(&run[i]);
     }
     free(run);
     return status;

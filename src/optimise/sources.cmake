@@ -5,6 +5,7 @@ set(CZ_SOURCES_optimise
     challenge.c
     challenge_points.c
     challenge_search.c
+    challenge_study.c
     challenge_weak.c
     combinations.c
     corridor.c
@@ -34,4 +35,5 @@ set(CZ_SOURCES_optimise
     surface.c
     surface_program.c
     verified.c
+    worker.c
 )

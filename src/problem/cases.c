@@ -121,11 +121,12 @@ CzStatus cz_problem_read_cases(const CzProblem *problem, int n_case, const CzCas
                                CzProblem **extended, CzError *error) {
     *extended = NULL;
     CzSetting *none = NULL;
-    CzProblem *made = cz_problem_create_again(problem, 0, &none);
+    CzProblem *made = cz_problem_create_again(problem, CZ_STEP_CASES, 0, &none);
     if (made == NULL)
         return cz_no_memory(error, "the cases");
     const void *field = NULL;
     CzStatus status = CZ_STATUS_NO_MEMORY;
+    made->n_added = n_case;
     if (extend_tree(made, problem, n_case, cases)) {
         cz_problem_bind(made, &made->tree);
         status = cz_rules_check_again(made, error);
@@ -186,7 +187,7 @@ CzStatus cz_problem_read_stages(const CzProblem *problem, const char *place, int
     CzSetting *setting = NULL;
     const void *field = NULL;
     *made = NULL;
-    CzProblem *again = cz_problem_create_again(problem, 1, &setting);
+    CzProblem *again = cz_problem_create_again(problem, CZ_STEP_OTHER, 1, &setting);
     if (again == NULL)
         return cz_no_memory(error, "the stages of a device");
     CzStatus status = CZ_STATUS_NO_MEMORY;

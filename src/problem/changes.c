@@ -78,7 +78,8 @@ static CzStatus read_one(const CzProblem *problem, int index, CzProblem **change
                          const void **field, CzError *error) {
     const CzScenario *scenario = &problem->input.scenarios[index];
     CzSetting *setting = NULL;
-    CzProblem *made = cz_problem_create_again(problem, scenario->n_changes, &setting);
+    CzProblem *made =
+        cz_problem_create_again(problem, CZ_STEP_OTHER, scenario->n_changes, &setting);
     if (made == NULL)
         return cz_no_memory(error, "the problem of a scenario");
     if (make_settings(made, scenario, index, setting))

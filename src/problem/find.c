@@ -131,7 +131,7 @@ static CzStatus find(const CzProblem *problem, CzProblem *trial, CzSetting *stan
 static CzStatus find_on_trial(const CzProblem *problem, const char *path, bool is_late,
                               CzTargets *targets, CzError *error) {
     CzSetting *stand_ins = NULL;
-    CzProblem *trial = cz_problem_create_again(problem, 1, &stand_ins);
+    CzProblem *trial = cz_problem_create_again(problem, CZ_STEP_OTHER, 1, &stand_ins);
     if (trial == NULL)
         return cz_no_memory(error, "the places of a path");
     const CzStatus status = find(problem, trial, stand_ins, path, is_late, targets, error);

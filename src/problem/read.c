@@ -20,6 +20,17 @@ CzProblemOptions cz_problem_options_default(void) {
 
 /* ---- reading ---- */
 
+/* Keeps the options, so that another process can read the problem; lack of memory is reported at
+ * the end of reading. */
+static void keep_options(CzProblem *problem, const CzProblemOptions *options) {
+    CzArena *arena = &problem->reader.arena;
+    const int n = options != NULL ? options->n_set : 0;
+    const char **set = cz_arena_allocate(arena, (size_t)n + 1, sizeof *set);
+    for (int i = 0; set != NULL && i < n; i++)
+        set[i] = cz_arena_copy_text(arena, options->set[i], strlen(options->set[i]));
+    problem->given = (CzProblemOptions){set, n, problem->reader.share_folder};
+}
+
 /* Begins a problem whose name in messages is `file`; `options` may be NULL. */
 static CzStatus begin(const CzProblemOptions *options, const char *file, CzProblem **problem,
                       CzError *error) {
@@ -32,6 +43,7 @@ static CzStatus begin(const CzProblemOptions *options, const char *file, CzProbl
     if (options != NULL && options->share_folder != NULL)
         begun->reader.share_folder =
             cz_arena_copy_text(arena, options->share_folder, strlen(options->share_folder));
+    keep_options(begun, options);
     return CZ_OK;
 }
 
@@ -105,7 +117,7 @@ CzStatus cz_problem_read(const char *path, const CzProblemOptions *options, CzPr
 CzStatus cz_problem_read_with(const CzProblem *problem, int n_set, const char *const *set,
                               CzProblem **made, CzError *error) {
     CzSetting *more = NULL;
-    *made = cz_problem_create_again(problem, n_set, &more);
+    *made = cz_problem_create_again(problem, CZ_STEP_OTHER, n_set, &more);
     if (*made == NULL)
         return cz_no_memory(error, "the problem with other settings");
     CzReader *reader = &(*made)->reader;
@@ -127,6 +139,10 @@ CzStatus cz_problem_read_text(const char *text, size_t n_byte, const char *name,
                               CzError *error) {
     CZ_TRY(begin(options, name, problem, error));
     CzReader *reader = &(*problem)->reader;
+    CzProblemText *problem_text = &(*problem)->text;
+    problem_text->byte = cz_arena_copy_text(&reader->arena, text, n_byte);
+    problem_text->n = n_byte;
+    problem_text->folder = cz_arena_copy_text(&reader->arena, folder, strlen(folder));
     const size_t n_mark = cz_source_mark(text, n_byte);
     text += n_mark;
     n_byte -= n_mark;

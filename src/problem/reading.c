@@ -24,7 +24,8 @@ CzProblem *cz_problem_create(const char *share_folder) {
     return problem;
 }
 
-CzProblem *cz_problem_create_again(const CzProblem *problem, int n_more, CzSetting **more) {
+CzProblem *cz_problem_create_again(const CzProblem *problem, CzReadStep step, int n_more,
+                                   CzSetting **more) {
     CzProblem *again = cz_problem_create(problem->reader.share_folder);
     const int n = problem->n_setting;
     CzSetting *setting = again != NULL ? cz_arena_allocate(&again->reader.arena,
@@ -40,6 +41,9 @@ CzProblem *cz_problem_create_again(const CzProblem *problem, int n_more, CzSetti
     again->setting = setting;
     again->n_setting = n + n_more;
     again->file = problem->file;
+    again->origin = problem;
+    again->step = step;
+    again->n_added = n_more;
     again->tree = problem->tree;
     again->curves = problem->curves;
     return again;

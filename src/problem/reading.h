@@ -11,12 +11,28 @@
  * reported, since they concern its original files. */
 #define CZ_RESOLVED_MARK " resolved: parts, copies and defaults filled in"
 
+/* How a problem is made: from a file or text, or again from another problem with further settings
+ * or scenarios, or in a way that only this process needs. */
+typedef enum CzReadStep { CZ_STEP_READ, CZ_STEP_SETTINGS, CZ_STEP_CASES, CZ_STEP_OTHER } CzReadStep;
+
+/* A text in place of a file. */
+typedef struct CzProblemText {
+    const char *byte; /* (n) */
+    size_t n;
+    const char *folder;
+} CzProblemText;
+
 struct CzProblem {
     CzReader reader;
     CzTree tree; /* as in the files, before settings */
     CzPlaces places;
     const CzReadCurve *curves; /* the curve files that were read, the last one first */
     const char *file;
+    CzProblemText text;      /* that was read; without bytes for a file */
+    CzProblemOptions given;  /* with which it was read */
+    const CzProblem *origin; /* that was read again; NULL for one of a file or text */
+    CzReadStep step;         /* from the origin to this problem */
+    int n_added;             /* settings or scenarios of this step */
     char hash[17];
     int n_setting;
     const CzSetting *setting; /* of the file, then of the options (n_setting) */
@@ -35,7 +51,8 @@ CzProblem *cz_problem_create(const char *share_folder);
 
 /* A problem to be reread from the tree of another, which it must not outlive, with space `*more`
  * for n_more settings after its own. NULL without memory. */
-CzProblem *cz_problem_create_again(const CzProblem *problem, int n_more, CzSetting **more);
+CzProblem *cz_problem_create_again(const CzProblem *problem, CzReadStep step, int n_more,
+                                   CzSetting **more);
 
 /* Borrows what was read from further files: profile, time histories, the list of files. */
 void cz_problem_take_files(CzProblem *again, const CzProblem *problem);

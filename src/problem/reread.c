@@ -23,7 +23,7 @@ CzStatus cz_problem_read_again(const CzProblem *problem, int n_more, const char 
                                const char *const *value, CzProblem **again, CzError *error) {
     *again = NULL;
     CzSetting *more = NULL;
-    CzProblem *made = cz_problem_create_again(problem, n_more, &more);
+    CzProblem *made = cz_problem_create_again(problem, CZ_STEP_SETTINGS, n_more, &more);
     if (made == NULL)
         return cz_no_memory(error, "the problem with other settings");
     CzReader *reader = &made->reader;

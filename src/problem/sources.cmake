@@ -12,6 +12,7 @@ set(CZ_SOURCES_problem
     keys.c
     measured.c
     places.c
+    problem_bytes.c
     profile.c
     read.c
     reading.c

@@ -3,6 +3,7 @@ set(CZ_SOURCES_simulate
     accounts.c
     balance.c
     batch.c
+    run_bytes.c
     batch_lanes.c
     energy_checks.c
     budget.c

@@ -15,7 +15,11 @@ with_small_metro() { # with_small_metro FOLDER: the project there with another m
 }
 
 PATH=$BUILD:$PATH
-export PATH
+# As the user of a container, with more ranks than processors.
+OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_orte_execute_quiet=1
+export PATH OMPI_ALLOW_RUN_AS_ROOT OMPI_ALLOW_RUN_AS_ROOT_CONFIRM OMPI_MCA_rmaps_base_oversubscribe OMPI_MCA_orte_execute_quiet
+has_mpi=false
+[ ! -x "$BUILD/crushzone-mpi" ] || ! command -v mpirun >/dev/null 2>&1 || has_mpi=true
 # The pages build by the preset release. Where that has built these tests too, its objects are taken.
 if [ "$(basename "$BUILD")" = release ]; then
     : "${CMAKE_C_COMPILER_LAUNCHER:=$SOURCE/tests/runs/reuse-object.sh}"
@@ -35,6 +39,11 @@ for page in "$SOURCE/README.md" "$SOURCE"/docs/*.md; do
     for i in $(seq "$n"); do
         command=$(cat "../command.$i")
         case $command in
+        *mpirun* | *" ranks"* | *"ranks/"* | *limited*) if $has_mpi; then
+            check "$(basename "$page"): $command" run_as_shown "$i"
+        else
+            skipped "$(basename "$page"): $command" "no mpirun, or built without it: install [mpi] of packages.txt"
+        fi ;;
         ./test*) check "$(basename "$page"): $command is there" test -x "${command%% *}" ;; # this is it
         *) check "$(basename "$page"): $command" run_as_shown "$i" ;;
         esac

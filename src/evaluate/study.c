@@ -1,0 +1,43 @@
+/* Tells workers of studies. */
+#include "evaluate/study.h"
+
+#include <stdint.h>
+
+/* The address names a study among those that are open. */
+void cz_study_put(CzMemoryText *request, const CzStudy *study) {
+    const uint64_t name = (uint64_t)(uintptr_t)study;
+    cz_put(request, &name, 1, sizeof name);
+}
+
+static CzStatus tell(const CzStudy *study, CzMemoryText *message, CzError *error) {
+    const CzBytes bytes = {.n = message->n, .byte = message->text};
+    return study->executor.tell(&study->executor, &bytes, error);
+}
+
+CzStatus cz_study_begin(CzStudy *study, CzError *error) {
+    if (study->is_known || study->executor.tell == NULL)
+        return CZ_OK;
+    CzMemoryText message = {0};
+    cz_study_put(&message, study);
+    cz_put_int(&message, true);
+    cz_put_int(&message, (int)study->kind);
+    study->describe(study->data, &message);
+    const bool is_described = !message.failed;
+    const CzStatus status = is_described ? tell(study, &message, error) : CZ_OK;
+    study->is_known = is_described && status == CZ_OK;
+    cz_memory_text_free(&message);
+    return status;
+}
+
+void cz_study_end(CzStudy *study) {
+    CzMemoryText message = {0};
+    if (!study->is_known)
+        return;
+    cz_study_put(&message, study);
+    cz_put_int(&message, false);
+    if (!message.failed)
+        (void)tell(study, &message,
+                   NULL); /* a worker that cannot be told is lost with all others */
+    cz_memory_text_free(&message);
+    study->is_known = false;
+}

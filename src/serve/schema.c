@@ -8,8 +8,8 @@ static void write_shape(CzRequestForm form, FILE *stream) {
         [CZ_REQUEST_WHOLE] = "\"type\": \"integer\"",
         [CZ_REQUEST_NUMBER] = "\"type\": \"number\"",
         [CZ_REQUEST_TEXTS] = "\"type\": \"array\", \"items\": {\"type\": \"string\"}",
-        [CZ_REQUEST_VALUES] = "\"type\": \"object\", \"additionalProperties\": "
-                              "{\"type\": [\"number\", \"string\", \"boolean\"]}"};
+        [CZ_REQUEST_VALUES] = ("\"type\": \"object\", \"additionalProperties\": "
+                               "{\"type\": [\"number\", \"string\", \"boolean\"]}")};
     fputs(shapes[form], stream);
 }
 

@@ -172,8 +172,7 @@ static void a_list_has_the_answers_of_its_requests_in_order(void **state) {
         "{\"id\": 1, \"variables\": {\"stroke\": 251}, \"want\": [\"checks\"]}",
         "{\"id\": 0, \"set\": {\"trains.A.vehicles.A1.mass_t\": 41}}",
         "{\"id\": 5, \"wish\": 1}",
-        "{\"id\": 6, \"set\": {\"trains.A.vehicles.A1.mass_t\": 41}, \"variables\": {\"stroke\": "
-        "250}}",
+        "{\"id\": 6, \"set\": {\"" TUBE "\": 900}, \"variables\": {\"stroke\": 250}}",
         "{\"op\": \"gradient\", \"scenarios\": [\"crash\"], \"variables\": {\"stroke\": 250}}",
         "{\"op\": \"describe\"}",
         "{\"scenarios\": [\"crash\", \"buffing\"]}"};

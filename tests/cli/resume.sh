@@ -90,7 +90,7 @@ check "a search that died while it continued goes on" died
 
 many() { # most designs are run in some scenarios only; the journal has null for the others
     printf 'schema: 1\ntitle: many\nextends: two-trains.yaml\nscenarios: [{name: speeds, sweep: {speed_km_h: 10:25:16}}]\n' >many.yaml
-    ends "$C" optimise many.yaml --evaluations 18 -o many && says out.txt 'of 16 scenarios limit the designs' && json many/outcome.json scenarios.15.evaluations 18 && grep -q '"constraints": \[null, ' many/history.jsonl &&
+    ends "$C" optimise many.yaml --evaluations 18 -o many && says out.txt 'of 16 scenarios limit the designs' && json many/outcome.json scenarios.15.evaluations && json many/outcome.json evaluations_in_all_scenarios && grep -q '"constraints": \[null, ' many/history.jsonl &&
         mkdir some && printf 'crushzone results\nhistory.jsonl\noptimised.yaml\n' >some/.crushzone && head -9 many/history.jsonl >some/history.jsonl && ends "$C" optimise many.yaml --resume some && same_results many some
 }
 check "a search that selects its scenarios goes on" many

@@ -125,10 +125,11 @@ static void extend_set(CzSelection *selection, const double *constraint) {
 
 void cz_selection_note(CzSelection *selection, bool is_whole, double objective,
                        const double *constraint) {
-    selection->n_design++;
+    const bool is_counted =
+        is_whole && !isnan(objective); /* a journal does not tell where it fails */
     for (int s = 0; s < selection->n_scenario; s++)
-        selection->n_run[s] += selection->has_run[s] && (is_whole || selection->works[s]);
-    selection->n_whole += is_whole;
+        selection->n_run[s] += selection->has_run[s] && (is_counted || selection->works[s]);
+    selection->n_whole += is_counted;
     if (!selection->is_on || isnan(objective))
         return;
     for (int j = 0; j < selection->n_constraint; j++)

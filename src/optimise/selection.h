@@ -27,7 +27,6 @@ typedef struct CzSelection {
     bool has_begun;     /* the working set was chosen; all scenarios before */
     bool *works;        /* the working set (n_scenario) */
     double *last;       /* last known value of each constraint (n_constraint) */
-    long n_design;      /* designs so far */
     long n_whole;       /* of them in all scenarios */
     long *n_run;        /* of them in each scenario (n_scenario) */
 } CzSelection;
@@ -49,7 +48,8 @@ void cz_selection_blank(const CzSelection *selection, double *constraint, double
 bool cz_selection_is_of_set(const CzSelection *selection, const double *constraint);
 
 /* Counts a design and notes its values; extends the working set by the scenarios that limit one
- * that was run in all. The objective of a design that failed is NaN. */
+ * that was run in all. The objective of a design that failed is NaN; it counts as run in the
+ * working set. */
 void cz_selection_note(CzSelection *selection, bool is_whole, double objective,
                        const double *constraint);
 

@@ -106,10 +106,24 @@ static CzStatus refuse(Trial *trial, const double *x, double objective,
 
 /* ---- the next designs ------------------------------------------------------------------------ */
 
+/* Distance between the increments within which a design is like a refused one, as a share of the
+ * ranges (ours). */
+static const double alike = 0.02;
+
+/* Largest difference of a variable between two designs, as a share of its range. */
+static double distance(const Trial *trial, const double *x, const double *other) {
+    double largest = 0;
+    for (int i = 0; i < trial->outcome->n_variable; i++) {
+        const CzVariableInfo *info = cz_evaluator_variable(trial->evaluator, i);
+        if (x[i] != other[i])
+            largest = fmax(largest, fabs(x[i] - other[i]) / (info->max - info->min));
+    }
+    return largest;
+}
+
 static bool is_refused(const Trial *trial, const double *x) {
-    const size_t size = (size_t)trial->outcome->n_variable * sizeof *x;
     for (int i = 0; i < trial->required.n; i++)
-        if (memcmp(trial->required.x[i], x, size) == 0)
+        if (distance(trial, x, trial->required.x[i]) <= (trial->on_grid ? 0 : alike))
             return true;
     return false;
 }
@@ -295,6 +309,11 @@ static CzStatus find(Trial *trial, CzError *error) {
                   error));
     CZ_TRY(list_candidates(trial, error));
     CZ_TRY(search_on(trial, error));
+    CZ_TRY(try_list(trial, &is_verified, error));
+    if (is_verified || !trial->on_grid)
+        return CZ_OK;
+    trial->on_grid = false; /* as where designs pass only between the increments */
+    CZ_TRY(list_candidates(trial, error));
     return try_list(trial, &is_verified, error);
 }
 

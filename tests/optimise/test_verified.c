@@ -100,11 +100,34 @@ static void change_of_a_verdict_becomes_a_required_margin(void **state) {
     end(&made);
 }
 
+/* The designs on the increments of 200 kN are refused, the start between them is not. */
+static void verified_design_between_the_increments_is_given_and_reported(void **state) {
+    (void)state;
+    char more[2048];
+    const char *set[] = {"parts.anti-climber.stages[0].force_kN=480"};
+    CzProblem *problem = NULL;
+    CzError error = {0};
+    stand_in_reset();
+    snprintf(more, sizeof more, sizing, 0.9);
+    memcpy(strstr(more, "max: 700, increment: 10"), "max: 490,increment: 200", 23);
+    assert_int_equal(small_problem_read(more, 1, set, &problem, &error), CZ_OK);
+    stand_in.unsteady_below = 450e3;
+    Case made = begin_with(problem, 2);
+    optimise(&made, NULL);
+    const CzOutcome *outcome = made.outcome;
+    assert_int_equal(outcome->status, CZ_OUTCOME_FEASIBLE);
+    assert_true(outcome->best[0] >= 450);
+    assert_near(outcome->rejected[0].x[0], 200, 0, 0);
+    assert_non_null(strstr(outcome->why_stopped, "between catalogue increments"));
+    end(&made);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(design_that_is_not_verified_is_not_the_best),
         cmocka_unit_test(without_a_verified_design_there_is_no_success),
         cmocka_unit_test(change_of_a_verdict_becomes_a_required_margin),
+        cmocka_unit_test(verified_design_between_the_increments_is_given_and_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,13 +22,15 @@ typedef struct CzVariablePlace {
 
 /* One design variable, or parameter of a fit. Texts and arrays are borrowed. */
 typedef struct CzVariableInfo {
-    const char *name; /* path or given name */
-    const char *unit; /* as in the file, such as "kN" */
-    double min, max;  /* in that unit */
-    double start;     /* in that unit */
-    double increment; /* catalogue increment in that unit; 0 when none */
-    bool is_fixed;    /* its bounds contain one value only, as a single increment or min = max */
-    double fixed_at;  /* that value, in that unit; 0 when it can vary */
+    const char *name;    /* path or given name */
+    const char *unit;    /* as in the file, such as "kN" */
+    double min, max;     /* in that unit */
+    double start;        /* in that unit */
+    double increment;    /* catalogue increment in that unit; 0 when none */
+    int n_value;         /* sizes in which it is available, of a list; 0 when there is no list */
+    const double *value; /* these sizes in that unit, the smallest first (n_value) */
+    bool is_fixed;       /* its bounds contain one value only, as a single increment or min = max */
+    double fixed_at;     /* that value, in that unit; 0 when it can vary */
     int n_choice; /* number of parts to choose from; the variable is then the index of a part, from
                      0. 0 for a numerical variable */
     const char *const *choice; /* their names (n_choice) */

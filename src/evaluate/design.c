@@ -247,6 +247,22 @@ static const char *name_variable(const Builder *builder, const CzVariable *writt
     return cz_arena_copy_text(builder->arena, text, strlen(text));
 }
 
+/* Sets the sizes of a list, which were checked when the problem was read. */
+static CzStatus settle_values(const Builder *builder, const CzVariable *written,
+                              CzVariableInfo *info) {
+    const int n = written->values.n_text;
+    double *value = cz_arena_numbers(builder->arena, (size_t)n);
+    if (value == NULL)
+        return cz_no_memory(builder->error, "the design variables");
+    for (int i = 0; i < n; i++)
+        cz_number_parse(written->values.text[i], &value[i]);
+    info->n_value = n;
+    info->value = value;
+    info->min = value[0];
+    info->max = value[n - 1];
+    return CZ_OK;
+}
+
 /* A variable whose bounds allow one value only does not vary. */
 static void settle_fixed(CzVariableInfo *info) {
     const bool by_bounds = info->min == info->max;
@@ -313,6 +329,11 @@ static CzStatus add_variable(Builder *builder, const CzVariable *written, int ma
     if (!isnan(written->start))
         variable->info.start = written->start;
     variable->start_field = isnan(written->start) ? &written->min : &written->start;
+    if (written->values.n_text > 0) {
+        CZ_TRY(settle_values(builder, written, &variable->info));
+        if (isnan(written->start))
+            variable->start_field = &written->values;
+    }
     if (written->choices.n_text > 0)
         CZ_TRY(settle_choice(builder, written, variable));
     settle_fixed(&variable->info);

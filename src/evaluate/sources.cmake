@@ -17,6 +17,7 @@ set(CZ_SOURCES_evaluate
     candidate_changes.c
     case_names.c
     cases.c
+    listed.c
     match.c
     metric.c
     metric_values.c

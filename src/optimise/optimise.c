@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "evaluate/evaluator.h"
+#include "evaluate/listed.h"
 #include "optimise/combinations.h"
 #include "optimise/nlopt_adapter.h"
 #include "optimise/outcome.h"
@@ -164,13 +165,11 @@ static CzStatus confirm(CzEvaluator *evaluator, const CzSubspace *subspace, CzOu
 
 /* Whether the best design is off a catalogue increment. */
 static bool is_between_steps(const CzSubspace *subspace, const CzOutcome *outcome) {
-    const CzSearch *search = &subspace->search;
-    for (long record = 0; record < search->n_record; record++) {
-        bool is_best = true;
-        for (int i = 0; i < subspace->function.n_variable && is_best; i++)
-            is_best = cz_search_x(search, record)[i] == outcome->best[subspace->number[i]];
-        if (is_best)
-            return !search->record[record].on_grid;
+    for (int i = 0; i < subspace->function.n_variable; i++) {
+        const int number = subspace->number[i];
+        if (!cz_variable_has(cz_evaluator_variable(subspace->evaluator, number),
+                             outcome->best[number]))
+            return true;
     }
     return false;
 }

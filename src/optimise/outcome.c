@@ -1,6 +1,7 @@
 /* Memory of an outcome, its bounds and its verification. */
 #include "optimise/outcome.h"
 #include "base/error.h"
+#include "evaluate/listed.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -101,11 +102,9 @@ CzStatus cz_outcome_take_history(CzOutcome *outcome, const CzCombinations *combi
 }
 
 bool cz_is_on_increments(const CzEvaluator *evaluator, const double *x) {
-    for (int i = 0; i < cz_evaluator_n_variable(evaluator); i++) {
-        const double step = cz_evaluator_variable(evaluator, i)->increment;
-        if (step > 0 && round(x[i] / step) * step != x[i])
+    for (int i = 0; i < cz_evaluator_n_variable(evaluator); i++)
+        if (!cz_variable_has(cz_evaluator_variable(evaluator, i), x[i]))
             return false;
-    }
     return true;
 }
 

@@ -7,6 +7,7 @@
 #include "base/arena.h"
 #include "base/error.h"
 #include "evaluate/evaluator.h"
+#include "evaluate/listed.h"
 #include "optimise/combinations.h"
 #include "optimise/outcome.h"
 #include "optimise/strategy.h"
@@ -34,7 +35,8 @@ static const double offset = 10;
 static void expand(const Relaxed *relaxed, const double *number, double *x) {
     memcpy(x, relaxed->best, (size_t)relaxed->n_all * sizeof *x);
     for (int i = 0; i < relaxed->function.n_variable; i++)
-        x[relaxed->number[i]] = number[i];
+        x[relaxed->number[i]] = cz_search_value(
+            cz_evaluator_variable(relaxed->evaluator, relaxed->number[i]), number[i]);
 }
 
 static CzStatus evaluate(void *data, int n_point, const double *numbers, double *objective,
@@ -80,10 +82,11 @@ static bool create(Relaxed *relaxed, CzArena *arena, CzEvaluator *evaluator,
         const CzVariableInfo *info = cz_evaluator_variable(evaluator, i);
         if (info->is_fixed || info->n_choice > 0)
             continue;
-        min[n] = info->min;
-        max[n] = info->max;
-        step[n] = info->increment;
-        start[n] = outcome->best[i];
+        const CzSearchRange range = cz_search_range(info, outcome->best[i]);
+        min[n] = range.min;
+        max[n] = range.max;
+        start[n] = range.start;
+        step[n] = range.step;
         number[n++] = i;
     }
     for (int j = 0; j < m; j++) {

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "evaluate/evaluator.h"
+#include "evaluate/listed.h"
 #include "optimise/outcome.h"
 
 #include <math.h>
@@ -21,6 +22,11 @@
 /* The step of a variable at a value, negative towards the lower bound; 0 when there is none. */
 static double step_of(const CzVariableInfo *variable, double value) {
     const double range = variable->max - variable->min;
+    if (variable->n_value > 1) { /* to the next size of the list */
+        const double place = cz_listed_place(variable, value);
+        const bool is_last = place >= variable->n_value - 1;
+        return cz_listed_value(variable, is_last ? place - 1 : floor(place) + 1) - value;
+    }
     if (variable->n_choice > 0 || variable->is_fixed || !(range > 0))
         return 0;
     double step = SMALLEST_SHARE * range;

@@ -58,7 +58,8 @@ static double reach_of(const CzEvaluator *evaluator, const CzOutcome *outcome, i
     double reach = 0;
     for (int i = 0; i < outcome->n_variable; i++) {
         const double change = fabs(outcome->constraint_change[i * m + constraint]);
-        if (cz_evaluator_variable(evaluator, i)->increment > 0 && isfinite(change))
+        const CzVariableInfo *info = cz_evaluator_variable(evaluator, i);
+        if ((info->increment > 0 || info->n_value > 0) && isfinite(change))
             reach = fmax(reach, change);
     }
     return reach;

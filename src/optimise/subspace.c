@@ -2,6 +2,7 @@
 #include "optimise/subspace.h"
 #include "base/error.h"
 #include "evaluate/evaluator.h"
+#include "evaluate/listed.h"
 
 #include <math.h>
 #include <string.h>
@@ -9,7 +10,8 @@
 void cz_subspace_expand(const CzSubspace *subspace, const double *number, double *x) {
     memcpy(x, subspace->made, (size_t)subspace->n_all * sizeof *x);
     for (int i = 0; i < subspace->function.n_variable; i++)
-        x[subspace->number[i]] = number[i];
+        x[subspace->number[i]] = cz_search_value(
+            cz_evaluator_variable(subspace->evaluator, subspace->number[i]), number[i]);
 }
 
 /* Adds the required margins; a design that was not verified counts as one that fails a yes or no.
@@ -209,10 +211,11 @@ bool cz_subspace_create(CzReplay *replay, int combination, const double *start, 
             made[i] = info->fixed_at;
         if (info->is_fixed || info->n_choice > 0)
             continue;
-        min[n] = info->min;
-        max[n] = info->max;
-        first[n] = start != NULL ? start[i] : info->start;
-        step[n] = info->increment;
+        const CzSearchRange range = cz_search_range(info, start != NULL ? start[i] : info->start);
+        min[n] = range.min;
+        max[n] = range.max;
+        first[n] = range.start;
+        step[n] = range.step;
         number[n++] = i;
     }
     int m = 0;

@@ -55,6 +55,17 @@ static bool is_fit(const CzRules *rules) {
     return rules->input->optimise.n_match > 0;
 }
 
+/* Bounds of a variable, of a list its first and its last size. */
+static void find_bounds(const CzVariable *variable, double bounds[2]) {
+    const CzTexts *values = &variable->values;
+    bounds[0] = variable->min;
+    bounds[1] = variable->max;
+    for (int side = 0; side < 2 && values->n_text > 0; side++)
+        if (cz_number_parse(values->text[side == 0 ? 0 : values->n_text - 1], &bounds[side]) !=
+            NULL)
+            bounds[side] = NAN; /* reported elsewhere */
+}
+
 /* Range of a variable against the range of the key that its path ends in. Bounds are in the unit of
  * the variable's first path, `first`. */
 static void check_target(const CzRules *rules, const CzVariable *variable, const char *const *path,
@@ -79,12 +90,17 @@ static void check_target(const CzRules *rules, const CzVariable *variable, const
     if (place == NULL || place->address != target->field || place->key == NULL)
         return;
     const double lo = place->key->lo / first->unit, hi = place->key->hi / first->unit;
-    if (variable->min < lo)
-        cz_rule_broken(rules, &variable->min, "%s must not be smaller than %s %s", place->key->stem,
-                       CZ_SHORT(lo), first->suffix);
-    if (variable->max > hi)
-        cz_rule_broken(rules, &variable->max, "%s must not be larger than %s %s", place->key->stem,
-                       CZ_SHORT(hi), first->suffix);
+    const bool is_list = variable->values.n_text > 0;
+    double bounds[2];
+    find_bounds(variable, bounds);
+    if (bounds[0] < lo)
+        cz_rule_broken(rules, is_list ? (const void *)&variable->values : &variable->min,
+                       "%s must not be smaller than %s %s", place->key->stem, CZ_SHORT(lo),
+                       first->suffix);
+    if (bounds[1] > hi)
+        cz_rule_broken(rules, is_list ? (const void *)&variable->values : &variable->max,
+                       "%s must not be larger than %s %s", place->key->stem, CZ_SHORT(hi),
+                       first->suffix);
 }
 
 /* Adds the targets of a path to those of its variable; returns their number, 0 with the reason in
@@ -113,10 +129,54 @@ static void check_path(const CzRules *rules, const CzVariable *variable, const c
             check_target(rules, variable, path, &targets->target[i], targets->target);
 }
 
+/* The number of one size of a list, NaN with its reason where it is none or does not follow the one
+ * before. */
+static double check_value(const CzRules *rules, const CzVariable *variable, int i, double before) {
+    const char *text = variable->values.text[i];
+    char number[CZ_NUMBER_TEXT];
+    double value;
+    const char *wrong = cz_number_parse(text, &value);
+    if (wrong != NULL)
+        cz_rule_broken(rules, &variable->values.text[i], "values: '%.60s' %s", text, wrong);
+    else if (value <= before)
+        cz_rule_broken(rules, &variable->values.text[i],
+                       "values: %.60s does not follow %s: sizes are listed once, the smallest "
+                       "first",
+                       text, cz_number_print(number, before));
+    return wrong != NULL || value <= before ? NAN : value;
+}
+
+static void check_values(const CzRules *rules, const CzVariable *variable) {
+    const CzTexts *values = &variable->values;
+    const struct {
+        const double *field;
+        const char *name;
+    } others[] = {
+        {&variable->min, "min"}, {&variable->max, "max"}, {&variable->increment, "increment"}};
+    char start[CZ_NUMBER_TEXT];
+    double before = -INFINITY, bounds[2];
+    for (int i = 0; i < 3; i++)
+        if (cz_rule_is_written(rules, others[i].field))
+            cz_rule_broken(rules, others[i].field, "a variable with values has no '%s'",
+                           others[i].name);
+    if (values->n_text == 0)
+        cz_rule_broken(rules, values, "a variable needs one value or more");
+    if (is_fit(rules))
+        cz_rule_broken(rules, values, "a parameter of a fit has no values, but bounds");
+    for (int i = 0; i < values->n_text && !isnan(before); i++)
+        before = check_value(rules, variable, i, before);
+    find_bounds(variable, bounds);
+    if (variable->start < bounds[0] || variable->start > bounds[1])
+        cz_rule_broken(rules, &variable->start,
+                       "start %s must be within the values, %.60s to %.60s",
+                       cz_number_print(start, variable->start), values->text[0],
+                       values->text[values->n_text - 1]);
+}
+
 static void check_bounds(const CzRules *rules, const CzVariable *variable) {
     char first[CZ_NUMBER_TEXT], min[CZ_NUMBER_TEXT], max[CZ_NUMBER_TEXT];
     if (!cz_rule_is_written(rules, &variable->min) || !cz_rule_is_written(rules, &variable->max)) {
-        cz_rule_broken(rules, variable, "a variable needs 'min' and 'max', or 'choices'");
+        cz_rule_broken(rules, variable, "a variable needs 'min' and 'max', 'values', or 'choices'");
         return;
     }
     cz_number_print(min, variable->min);
@@ -186,6 +246,8 @@ static void check_choices(const CzRules *rules, const CzVariable *variable, CzTa
                   {&variable->max, "max"},
                   {&variable->start, "start"},
                   {&variable->increment, "increment"}};
+    if (cz_rule_is_written(rules, &variable->values))
+        cz_rule_broken(rules, &variable->values, "a variable with choices has no 'values'");
     for (int i = 0; i < 4; i++)
         if (cz_rule_is_written(rules, bounds[i].field))
             cz_rule_broken(rules, bounds[i].field, "a variable with choices has no '%s'",
@@ -213,7 +275,10 @@ static void check_variable(const CzRules *rules, const CzVariable *variable, CzT
         check_choices(rules, variable, targets);
         return;
     }
-    check_bounds(rules, variable);
+    if (cz_rule_is_written(rules, &variable->values))
+        check_values(rules, variable);
+    else
+        check_bounds(rules, variable);
     if (rules->reader->has_holes)
         return; /* a path may lead into a record that could not be read */
     if (variable->path != NULL)

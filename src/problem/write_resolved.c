@@ -238,6 +238,9 @@ static void write_variable(const Writer *writer, const CzVariable *variable, con
         if (record->key[i].kind == CZ_KEY_NUMBER)
             write_value(writer, &record->key[i], (const char *)variable + record->key[i].offset,
                         indent, "");
+        else if (record->key[i].offset == offsetof(CzVariable, values) &&
+                 variable->values.n_text > 0)
+            write_texts(writer, &record->key[i], &variable->values, indent);
 }
 
 static void write_variables(const Writer *writer, const CzVariable *variable, int indent) {

@@ -95,7 +95,7 @@ static void write_key(FILE *stream, bool *is_first, const CzKey *key) {
                 key->child->name);
         break;
     case CZ_KEY_TEXTS:
-        fputs(", \"type\": \"array\", \"items\": {\"type\": \"string\"}}", stream);
+        fputs(", \"type\": \"array\", \"items\": {\"type\": [\"string\", \"number\"]}}", stream);
         break;
     case CZ_KEY_TABLE:
         write_table(stream);

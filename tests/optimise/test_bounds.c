@@ -123,6 +123,50 @@ static void a_search_without_free_variables_reports_it(void **state) {
     end(&made);
 }
 
+/* ---- lists of sizes ----------------------------------------------------------------------- */
+
+/* VARIED with these sizes in place of bounds and increment. */
+static Case optimise_sizes(const char *sizes) {
+    char more[1024];
+    const char *bounds = strstr(VARIED, "min: 100");
+    stand_in_reset();
+    snprintf(more, sizeof more, "%.*svalues: %s}\n", (int)(bounds - VARIED), VARIED, sizes);
+    Case made = begin(more, 1);
+    optimise(&made, NULL);
+    return made;
+}
+
+/* The sizes are far from equidistant, and the file's own value is between two of them. */
+static void a_search_ends_at_the_best_size_of_a_list(void **state) {
+    (void)state;
+    stand_in_reset();
+    Case free = begin(VARIED, 1);
+    optimise(&free, NULL);
+    Case made = optimise_sizes("[101, 250.5, 333.25, 419, 420, 690]");
+    const CzVariableInfo *info = cz_evaluator_variable(made.evaluator, 0);
+    assert_int_equal(info->n_value, 6);
+    assert_near(info->min, 101, 0, 0);
+    assert_near(info->max, 690, 0, 0);
+    int expected = 0; /* the smallest size that the continuous optimum allows */
+    while (info->value[expected] < made.outcome->best[0] - 1e-9)
+        expected++;
+    assert_near(made.outcome->best[0], info->value[expected], 0, 0);
+    assert_true(made.outcome->best[0] >= free.outcome->best[0] - 10);
+    assert_true(expected == 0 || info->value[expected - 1] < free.outcome->best[0]);
+    assert_int_equal(made.outcome->status, CZ_OUTCOME_FEASIBLE);
+    assert_null(strstr(made.outcome->why_stopped, "between catalogue increments"));
+    end(&made);
+    end(&free);
+}
+
+static void a_list_of_one_size_is_a_fixed_variable(void **state) {
+    (void)state;
+    Case made = optimise_sizes("[400]");
+    assert_true(cz_evaluator_variable(made.evaluator, 0)->is_fixed);
+    assert_near(made.outcome->best[0], 400, 0, 0);
+    end(&made);
+}
+
 /* ---- why it ended ---------------------------------------------------------------------------- */
 
 static void the_reason_of_the_end_has_exact_numbers(void **state) {
@@ -288,6 +332,8 @@ int main(void) {
         cmocka_unit_test(a_start_on_its_bound_is_within_it_whatever_the_unit),
         cmocka_unit_test(tied_places_of_other_units_share_the_bounds),
         cmocka_unit_test(fixed_variables_cost_no_evaluation_and_are_reported),
+        cmocka_unit_test(a_search_ends_at_the_best_size_of_a_list),
+        cmocka_unit_test(a_list_of_one_size_is_a_fixed_variable),
         cmocka_unit_test(a_search_without_free_variables_reports_it),
         cmocka_unit_test(the_reason_of_the_end_has_exact_numbers),
         cmocka_unit_test(named_rules_are_those_of_the_reader),

@@ -96,6 +96,13 @@ typedef struct CzMultiplier {
                        or a bound that is further away by 1 unit of the variable */
 } CzMultiplier;
 
+/* A margin of the best design, where the smallest one is maximised. */
+typedef struct CzOrderedMargin {
+    int constraint;
+    double margin;
+    bool is_capped; /* no variable raises it within its bounds */
+} CzOrderedMargin;
+
 /* The smallest relaxation of one limit with which a design passes. */
 typedef struct CzRelaxation {
     int constraint;
@@ -158,6 +165,9 @@ typedef struct CzOutcome {
     CzMultiplier *multiplier; /* limits before bounds, largest first; NULL when the condition is not
                                  known (n_multiplier) */
     CzRelaxation relaxation;  /* when no design passes */
+    int n_margin;            /* of the smallest margins, at most 8; 0 when they are not maximised */
+    CzOrderedMargin *margin; /* smallest first; with the first ones that are capped the next one is
+                                maximised (n_margin) */
     long n_trial;
     CzTrial *trial;  /* history in order (n_trial) */
     double *trial_x; /* its designs, in the variables' units (n_trial x n_variable) */

@@ -67,8 +67,15 @@ int cz_evaluator_n_check(const CzEvaluator *evaluator);
 void cz_evaluator_name_checks(const CzEvaluator *evaluator, const char **name,
                               const char **scenario);
 
-/* Whether each detail is the distance to an activation, which is not a margin (n_detail). */
-void cz_evaluator_mark_activations(const CzEvaluator *evaluator, bool *is_activation);
+/* What a detail is. */
+typedef enum CzDetailKind {
+    CZ_DETAIL_OF_RUN,    /* a margin that a run decides, or a residual */
+    CZ_DETAIL_OF_DESIGN, /* a margin of the design alone, such as a ratio of two of its forces */
+    CZ_DETAIL_ACTIVATION /* the distance to an activation, which is not a margin */
+} CzDetailKind;
+
+/* Fills the kinds of all details (n_detail). */
+void cz_evaluator_detail_kinds(const CzEvaluator *evaluator, CzDetailKind *kind);
 
 /* As cz_evaluate without keeping runs, for a search: runs end as soon as their results are final,
  * and `detail` (n_point x n_detail) gets the details, NaN for designs that failed. */

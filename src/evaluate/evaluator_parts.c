@@ -326,14 +326,20 @@ int cz_evaluator_n_detail(const CzEvaluator *evaluator) {
     return evaluator->n_detail;
 }
 
-void cz_evaluator_mark_activations(const CzEvaluator *evaluator, bool *is_activation) {
+static CzDetailKind detail_kind_of(const CzCheck *check) {
+    if (check->scenario == CZ_NO_SCENARIO)
+        return CZ_DETAIL_OF_DESIGN;
+    return cz_check_is_activation(check) ? CZ_DETAIL_ACTIVATION : CZ_DETAIL_OF_RUN;
+}
+
+void cz_evaluator_detail_kinds(const CzEvaluator *evaluator, CzDetailKind *kind) {
     int n = 0;
-    if (evaluator->matches.n_item > 0)
-        return; /* residuals */
-    for (int j = 0; j < evaluator->list.n_constraint; j++) {
-        const bool is_marked = cz_check_is_activation(constraint_at(evaluator, j));
+    while (evaluator->matches.n_item > 0 && n < evaluator->n_detail)
+        kind[n++] = CZ_DETAIL_OF_RUN;
+    for (int j = 0; n < evaluator->n_detail; j++) {
+        const CzDetailKind kind_of_all = detail_kind_of(constraint_at(evaluator, j));
         for (int k = cz_evaluator_n_detail_of(evaluator, j); k > 0; k--)
-            is_activation[n++] = is_marked;
+            kind[n++] = kind_of_all;
     }
 }
 

@@ -72,7 +72,7 @@ static bool is_better(const CzSearch *search, const CzSearch *other) {
         return mine->violation <= 0;
     if (mine->violation <= 0 && mine->on_grid != theirs->on_grid)
         return mine->on_grid;
-    return mine->violation <= 0 ? mine->objective < theirs->objective
+    return mine->violation <= 0 ? cz_record_is_better(mine, theirs)
                                 : mine->penalty < theirs->penalty;
 }
 

@@ -254,6 +254,7 @@ static CzStatus fill_outcome(CzEvaluator *evaluator, CzCombinations *combination
     }
     CZ_TRY(cz_relaxation_find(evaluator, options->stop, outcome, error));
     CZ_TRY(cz_sensitivity_take(evaluator, options->stop, outcome, error));
+    CZ_TRY(cz_margins_order(evaluator, outcome, error));
     return cz_stationarity_find(evaluator, outcome, error);
 }
 

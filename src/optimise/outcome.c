@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "evaluate/listed.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +15,10 @@ typedef struct Owned {
 
 double *cz_outcome_numbers(CzOutcome *outcome, size_t n) {
     return cz_arena_numbers(&((Owned *)outcome)->arena, n);
+}
+
+CzOrderedMargin *cz_outcome_margins(CzOutcome *outcome, size_t n) {
+    return cz_arena_allocate(&((Owned *)outcome)->arena, n + 1, sizeof(CzOrderedMargin));
 }
 
 CzMultiplier *cz_outcome_multipliers(CzOutcome *outcome, size_t n) {
@@ -160,6 +163,7 @@ static CzStatus fill(CzEvaluator *evaluator, const CzRecall *recall, CzOutcome *
     if (outcome->status == CZ_OUTCOME_INTERRUPTED)
         return CZ_OK;
     CZ_TRY(cz_sensitivity_take(evaluator, NULL, outcome, error));
+    CZ_TRY(cz_margins_order(evaluator, outcome, error));
     return cz_stationarity_find(evaluator, outcome, error);
 }
 

@@ -11,6 +11,7 @@ CZ_MUST_CHECK CzStatus cz_outcome_create(const CzEvaluator *evaluator, long n_tr
 
 /* Memory of the outcome for n numbers; NULL when there is none. */
 double *cz_outcome_numbers(CzOutcome *outcome, size_t n);
+CzOrderedMargin *cz_outcome_margins(CzOutcome *outcome, size_t n);
 CzMultiplier *cz_outcome_multipliers(CzOutcome *outcome, size_t n);
 
 /* Passes an outcome on, or frees it where the status is a failure; returns the status. */
@@ -59,6 +60,10 @@ CZ_MUST_CHECK CzStatus cz_sensitivity_take(CzEvaluator *evaluator,
  * CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_stationarity_find(const CzEvaluator *evaluator, CzOutcome *outcome,
                                             CzError *error);
+
+/* Fills `margin` from the sensitivities (margin_order.c). Statuses: CZ_OK, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CzStatus cz_margins_order(const CzEvaluator *evaluator, CzOutcome *outcome,
+                                        CzError *error);
 
 /* Fills `relaxation` when no design passes, by short searches of the least violation of one limit
  * with all others satisfied (relaxation.c). Statuses: those of cz_evaluate; CZ_OK after the stop

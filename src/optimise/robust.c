@@ -406,6 +406,7 @@ static CzStatus fill_outcome(Robust *robust, CzError *error) {
     conclude(robust, outcome);
     CZ_TRY(cz_outcome_verify(result->evaluator, &robust->options, outcome, error));
     CZ_TRY(cz_sensitivity_take(result->evaluator, robust->options.stop, outcome, error));
+    CZ_TRY(cz_margins_order(result->evaluator, outcome, error));
     return cz_stationarity_find(result->evaluator, outcome, error);
 }
 

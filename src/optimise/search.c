@@ -132,6 +132,9 @@ bool cz_record_is_better(const CzRecord *record, const CzRecord *other) {
         return other->is_barred;
     if (record->penalty != other->penalty)
         return record->penalty < other->penalty;
+    for (int i = 0; record->objective == other->objective && i < CZ_N_LARGEST; i++)
+        if (record->largest[i] != other->largest[i])
+            return record->largest[i] < other->largest[i];
     return record->objective < other->objective; /* false for NaN */
 }
 
@@ -187,6 +190,9 @@ static bool is_gain(const CzSearch *search, long record) {
     if (b->penalty > 0)
         return a->penalty < 0.99 * b->penalty;
     const double scale = search->function->is_minimax ? 1 : fabs(b->objective); /* a margin is 1 */
+    for (int i = 0; a->objective == b->objective && i < CZ_N_LARGEST; i++)
+        if (a->largest[i] != b->largest[i])
+            return a->largest[i] < b->largest[i] - 1e-3;
     return a->objective < b->objective - 1e-3 * scale;
 }
 
@@ -278,16 +284,30 @@ static double distance_from_best(const CzSearch *search, const double *x) {
     return sqrt(sum);
 }
 
+/* Puts a constraint among the largest ones. */
+static void note_largest(CzRecord *record, double constraint) {
+    for (int i = 0; i < CZ_N_LARGEST; i++)
+        if (constraint > record->largest[i]) {
+            const double smaller = record->largest[i];
+            record->largest[i] = constraint;
+            constraint = smaller;
+        }
+}
+
 CzRecord cz_search_judge(const CzFunction *function, const char *phase, double objective,
                          const double *constraint) {
     CzRecord record = {.objective = objective, .phase = phase};
     bool failed = !isfinite(objective);
+    for (int i = 0; i < CZ_N_LARGEST && function->is_minimax; i++)
+        record.largest[i] = -INFINITY;
     for (int j = 0; j < function->n_constraint; j++) {
         const CzConstraintKind kind = cz_constraint_kind(function, j);
         failed |= isnan(constraint[j]);
         record.violation = fmax(record.violation, constraint[j]);
         if (kind == CZ_CONSTRAINT_GRADED)
             record.missed = fmax(record.missed, constraint[j]);
+        if (kind == CZ_CONSTRAINT_GRADED && function->is_minimax)
+            note_largest(&record, constraint[j]);
         record.is_barred |= kind == CZ_CONSTRAINT_RULES && constraint[j] > 0;
         if (!function->is_fit)
             record.penalty += cz_search_compressed(fmax(constraint[j], 0));

@@ -23,9 +23,8 @@ typedef struct CzFunction {
                                      is the best only while all are */
     int n_detail; /* constraints place by place, so without the breakpoints of the worst place; 0
                      when there are none */
-    const bool *is_activation; /* of details: a distance to an activation, which is no margin and so
-                                  no part of the largest constraint (n_detail); NULL: none is */
-    bool is_minimax;           /* the objective is the largest constraint, up to a constant */
+    const CzDetailKind *detail_kind; /* of details (n_detail); NULL: all are margins of runs */
+    bool is_minimax;                 /* the objective is the largest constraint, up to a constant */
     bool is_fit; /* the objective is a sum of squares, the details are its residuals, and each flag
                     is whether one of them is small enough */
 
@@ -44,10 +43,11 @@ static inline CzConstraintKind cz_constraint_kind(const CzFunction *function, in
     return function->kind != NULL ? function->kind[constraint] : CZ_CONSTRAINT_GRADED;
 }
 
-/* Whether a detail is a distance to an activation. */
-static inline bool cz_detail_is_activation(const CzFunction *function, int detail) {
-    return function->is_activation != NULL && function->is_activation[detail];
+static inline CzDetailKind cz_detail_kind(const CzFunction *function, int detail) {
+    return function->detail_kind != NULL ? function->detail_kind[detail] : CZ_DETAIL_OF_RUN;
 }
+
+enum { CZ_N_LARGEST = 8 };
 
 /* One evaluated design. */
 typedef struct CzRecord {
@@ -61,6 +61,8 @@ typedef struct CzRecord {
     double missed;   /* largest positive constraint that is not a yes or no; 0 when there is none */
     bool is_partial; /* not run in all scenarios: objective, violation and penalty are lower bounds,
                         and a better design is known */
+    double largest[CZ_N_LARGEST]; /* where the smallest margin is maximised, the largest graded
+                                     constraints, in order: the first ones rank equal objectives */
 } CzRecord;
 
 typedef struct CzSearch {
@@ -102,7 +104,7 @@ CzRecord cz_search_judge(const CzFunction *function, const char *phase, double o
                          const double *constraint);
 
 /* Whether a record is better: valid designs first, then by smaller penalty, then by smaller
- * objective. */
+ * objective; where the smallest margins are equal, by the next ones. */
 bool cz_record_is_better(const CzRecord *record, const CzRecord *other);
 
 /* Evaluations left; 0 when the search is over or paused. */

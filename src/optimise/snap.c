@@ -52,7 +52,8 @@ static bool is_near(const CzSurface *surface, const double *u) {
     const CzFunction *function = surface->search->function;
     for (int i = 0; i < surface->n; i++) {
         const double step = function->step[i] / (function->max[i] - function->min[i]);
-        if (fabs(u[i] - surface->u[i]) > fmax(farthest, 1.01 * step))
+        const double most = surface->is_frozen[i] ? 1e-9 : fmax(farthest, 1.01 * step);
+        if (fabs(u[i] - surface->u[i]) > most)
             return false;
     }
     return true;
@@ -280,7 +281,7 @@ static bool dive_once(const CzSurface *surface, Dive *dive) {
     const int n = surface->n;
     for (int i = 0; i < n; i++) {
         const double step = function->step[i] / (function->max[i] - function->min[i]);
-        const double reach = fmax(farthest, 1.01 * step);
+        const double reach = surface->is_frozen[i] ? 0 : fmax(farthest, 1.01 * step);
         dive->lo[i] = fmax(surface->u[i] - reach, 0);
         dive->hi[i] = fmin(surface->u[i] + reach, 1);
         dive->is_fixed[i] = false;

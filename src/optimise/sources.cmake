@@ -16,6 +16,7 @@ set(CZ_SOURCES_optimise
     corridor_search.c
     corridor_words.c
     linear_program.c
+    margin_order.c
     nlopt_adapter.c
     optimise.c
     outcome.c
@@ -33,6 +34,7 @@ set(CZ_SOURCES_optimise
     strategy.c
     subspace.c
     surface.c
+    surface_held.c
     surface_program.c
     verified.c
     worker.c

@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "optimise/gauss_newton.h"
 #include "optimise/nlopt_adapter.h"
+#include "optimise/surface_held.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -192,6 +193,7 @@ static CzStatus fit_by_phases(CzSearch *search, unsigned long seed, CzError *err
 /* Starts and ends of the descents so far, scaled (n x n_variable). */
 typedef struct Visited {
     int n;
+    long n_screened; /* points that filled the box */
     double *u;
     double *scratch; /* (n_variable) */
 } Visited;
@@ -200,20 +202,23 @@ static void visit(Visited *visited, const double *u, int n_variable) {
     memcpy(visited->u + visited->n++ * n_variable, u, (size_t)n_variable * sizeof *u);
 }
 
-/* The design from which the next descent begins: the start, then the best one that is distant from
- * the earlier descents, after more points; -1 when there is none. The last evaluations, too few for
+/* The design from which the next descent begins: the start, or the best one where margins are held,
+ * then the best one that is distant from the earlier descents, after more points; -1 when there is
+ * none. The last evaluations, too few for
  * a new descent, go to the best design. */
-static long next_start(CzSearch *search, unsigned long seed, int start, long left,
+static long next_start(const CzSurface *surface, unsigned long seed, int start, long left,
                        Visited *visited) {
+    CzSearch *search = surface->search;
     const int n = search->function->n_variable;
     const long n_screen = n + 2 < FEWEST_POINTS  ? FEWEST_POINTS
                           : n + 2 < SCREEN_BATCH ? n + 2
                                                  : SCREEN_BATCH;
     if (start == 0)
-        return 0;
+        return surface->n_held > 0 ? search->best : 0;
     if (left <= n_screen + 3 * (n + 2))
         return search->best;
-    screen(search, seed, (start - 1) * n_screen, n_screen);
+    screen(search, seed, visited->n_screened, n_screen);
+    visited->n_screened += n_screen;
     const double apart = 0.15 / (1 + start / 4);
     return best_apart(search, visited->n, visited->u, apart, visited->scratch);
 }
@@ -229,12 +234,13 @@ static void search_basins(CzSurface *surface, unsigned long seed, Visited *visit
     for (int start = 0; start < MOST_STARTS && n_idle < MOST_IDLE_STARTS; start++) {
         const long gain_before = search->last_gain, best_before = search->best;
         const long record =
-            next_start(search, seed, start, cz_search_left(search) - reserve, visited);
+            next_start(surface, seed, start, cz_search_left(search) - reserve, visited);
         const long left = cz_search_left(search) - reserve;
         if (left < n + 2)
             break;
         if (record >= 0) {
-            const double *from = start == 0 ? search->function->start : cz_search_x(search, record);
+            const double *from = start == 0 && surface->n_held == 0 ? search->function->start
+                                                                    : cz_search_x(search, record);
             cz_search_scale(search, from, visited->scratch);
             visit(visited, visited->scratch, n);
             cz_surface_descend(surface, "descend", from, left);
@@ -246,11 +252,34 @@ static void search_basins(CzSurface *surface, unsigned long seed, Visited *visit
             n_idle++;
         if (search->best != best_before)
             cz_snap(surface, cz_search_left(search), false);
+        if (cz_surface_is_capped(surface))
+            break;
     }
 }
 
+/* Holds the smallest margin, and the next ones, where they are capped at the best design. Returns
+ * whether there is a next margin to maximise. */
+static bool hold_margins(CzSurface *surface) {
+    CzSearch *search = surface->search;
+    const long best = cz_search_has_steps(search) ? search->best_on_grid : search->best;
+    if (!search->function->is_minimax || best < 0 || search->record[best].penalty > 0 ||
+        cz_search_left(search) < 2 * (surface->n + 2))
+        return false;
+    if (surface->record < 0 || cz_search_is_better(search, best, surface->record)) {
+        double *u = cz_search_numbers(search, (size_t)surface->n);
+        if (u == NULL)
+            return false;
+        cz_search_scale(search, cz_search_x(search, best), u);
+        const bool has_planes = cz_surface_begin(surface, "descend", u, 0.02);
+        free(u);
+        if (!has_planes)
+            return false;
+    }
+    return cz_surface_hold(surface);
+}
+
 /* Descents from several designs; then the best one is refined, on the increments by `cz_strategy`.
- */
+ * Where the smallest margin cannot grow, the next ones are maximised in turn. */
 static CzStatus search_by_phases(CzSurface *surface, unsigned long seed, CzError *error) {
     CzSearch *search = surface->search;
     const size_t n = (size_t)surface->n;
@@ -259,10 +288,17 @@ static CzStatus search_by_phases(CzSurface *surface, unsigned long seed, CzError
         return cz_no_memory(error, "the starting points");
     visited.scratch = visited.u + 2 * MOST_STARTS * n;
     search_basins(surface, seed, &visited);
-    free(visited.u);
+    CzStatus status = CZ_OK;
     if (search->n_record == 0) /* too few evaluations for planes */
         cz_search_evaluate_start(search, "start");
-    return cz_search_has_steps(search) ? CZ_OK : polish(search, 0, error);
+    if (!cz_search_has_steps(search) && !cz_surface_is_capped(surface))
+        status = polish(search, 0, error);
+    while (status == CZ_OK && hold_margins(surface)) {
+        visited.n = 0;
+        search_basins(surface, seed, &visited);
+    }
+    free(visited.u);
+    return status;
 }
 
 /* Repeats one algorithm from the best design as long as that is an improvement. */

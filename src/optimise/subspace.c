@@ -196,14 +196,14 @@ bool cz_subspace_create(CzReplay *replay, int combination, const double *start, 
     double *first = cz_arena_numbers(arena, room), *step = cz_arena_numbers(arena, room);
     double *made = cz_arena_numbers(arena, room);
     CzConstraintKind *kind = cz_arena_allocate(arena, (size_t)n_constraint + 1, sizeof *kind);
-    bool *is_activation = cz_arena_allocate(arena, (size_t)cz_evaluator_n_detail(evaluator) + 1,
-                                            sizeof *is_activation);
+    CzDetailKind *detail_kind =
+        cz_arena_allocate(arena, (size_t)cz_evaluator_n_detail(evaluator) + 1, sizeof *detail_kind);
     int *number = cz_arena_allocate(arena, room, sizeof *number);
     int *shown = cz_arena_allocate(arena, (size_t)n_constraint + 1, sizeof *shown);
     if (arena->out_of_memory)
         return false;
     int n = 0;
-    cz_evaluator_mark_activations(evaluator, is_activation);
+    cz_evaluator_detail_kinds(evaluator, detail_kind);
     cz_evaluator_set_combination(evaluator, combination, made);
     for (int i = 0; i < n_all; i++) {
         const CzVariableInfo *info = cz_evaluator_variable(evaluator, i);
@@ -238,7 +238,7 @@ bool cz_subspace_create(CzReplay *replay, int combination, const double *start, 
                                       .step = step,
                                       .n_detail = cz_evaluator_n_detail(evaluator),
                                       .kind = kind,
-                                      .is_activation = is_activation,
+                                      .detail_kind = detail_kind,
                                       .is_minimax = cz_evaluator_maximises_margin(evaluator),
                                       .is_fit = cz_evaluator_is_fit(evaluator),
                                       .evaluate = evaluate_designs,

@@ -23,6 +23,9 @@ bool cz_surface_create(CzSurface *surface, CzSearch *search, int most) {
     surface->dc = cz_arena_numbers(arena, (size_t)(m * n));
     surface->x = cz_arena_numbers(arena, batch * (size_t)n);
     surface->usual_reserve = cz_arena_numbers(arena, (size_t)m);
+    surface->is_held = cz_arena_allocate(arena, (size_t)m + 1, sizeof(bool));
+    surface->is_frozen = cz_arena_allocate(arena, (size_t)n, sizeof(bool));
+    surface->frozen_at = cz_arena_numbers(arena, (size_t)n);
     surface->many_f = cz_arena_numbers(arena, batch);
     surface->many_c = cz_arena_numbers(arena, batch * (size_t)search->function->n_constraint);
     surface->many_d = cz_arena_numbers(arena, batch * (size_t)m);
@@ -101,19 +104,25 @@ static void renew_slopes(CzSurface *surface, int k) {
 /* Computes new secants around the base. False when the search ended. */
 static bool refresh(CzSurface *surface, const char *phase, double secant) {
     const int n = surface->n, m = surface->m;
+    int n_free = 0;
     for (int i = 0; i < n; i++) {
         const double kept = surface->u[i];
+        if (surface->is_frozen[i])
+            continue;
         surface->u[i] += cz_search_secant(kept, secant);
-        cz_search_unscale(surface->search, 1, surface->u, surface->x + i * n);
+        cz_search_unscale(surface->search, 1, surface->u, surface->x + n_free++ * n);
         surface->u[i] = kept;
     }
-    if (!evaluate(surface, phase, n))
+    if (!evaluate(surface, phase, n_free))
         return false;
-    for (int i = 0; i < n; i++) {
+    for (int i = n - 1, point = n_free; i >= 0; i--) { /* no column is overwritten before its use */
         const double h = cz_search_secant(surface->u[i], secant);
-        surface->df[i] = (surface->many_f[i] - surface->f) / h;
+        const bool is_frozen = surface->is_frozen[i];
+        point -= !is_frozen;
+        surface->df[i] = is_frozen ? 0 : (surface->many_f[point] - surface->f) / h;
         for (int k = 0; k < m; k++)
-            surface->many_d[i * m + k] = (surface->many_d[i * m + k] - surface->c[k]) / h;
+            surface->many_d[i * m + k] =
+                is_frozen ? 0 : (surface->many_d[point * m + k] - surface->c[k]) / h;
     }
     for (int k = 0; k < m; k++)
         renew_slopes(surface, k);
@@ -297,6 +306,16 @@ static double smallest_box(const CzSearch *search) {
     return fmax(2e-3, least / 2);
 }
 
+/* Sets the frozen variables of a scaled design, and of surface->x. */
+static void set_frozen(CzSurface *surface, double *u) {
+    const CzFunction *function = surface->search->function;
+    for (int i = 0; i < surface->n; i++)
+        if (surface->is_frozen[i] && u[i] != surface->frozen_at[i]) {
+            u[i] = surface->frozen_at[i];
+            surface->x[i] = function->min[i] + u[i] * (function->max[i] - function->min[i]);
+        }
+}
+
 /* Sets the base, with new secants, and what is lowered. False when the search ended or the design
  * failed. */
 static bool begin_descent(CzSurface *surface, const char *phase, const double *x, double secant) {
@@ -306,6 +325,7 @@ static bool begin_descent(CzSurface *surface, const char *phase, const double *x
         return false;
     memcpy(surface->x, x, (size_t)surface->n * sizeof *x); /* `x` may move with the history */
     cz_search_scale(search, surface->x, u);
+    set_frozen(surface, u);
     if (!evaluate(surface, search->n_record == 0 ? "start" : phase, 1)) {
         free(u);
         return false;

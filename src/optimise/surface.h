@@ -23,13 +23,17 @@ typedef struct CzSurface {
     double f, *c;   /* objective and details of the base (m) */
     bool *is_known; /* of a detail: not for one of a scenario that was left out, which is taken from
                        the planes before (m) */
-    double *df, *dc;                      /* slopes (n), (m x n) */
-    double *usual_reserve;                /* distance of details below 0 in a descent (m) */
-    bool is_fresh;                        /* no design has corrected the slopes since the secants */
-    double penalty;                       /* of the base in a descent: sum of its violations */
-    int n_outside;                        /* steps in a row that left it violated as before */
-    double scale;                         /* of the objective */
-    double weight;                        /* price of violations in its units */
+    double *df, *dc;       /* slopes (n), (m x n) */
+    double *usual_reserve; /* distance of details below 0 in a descent (m) */
+    bool is_fresh;         /* no design has corrected the slopes since the secants */
+    double penalty;        /* of the base in a descent: sum of its violations */
+    int n_outside;         /* steps in a row that left it violated as before */
+    int n_held;            /* details that are held; they no longer count in the largest one */
+    bool *is_held;         /* (m) */
+    bool *is_frozen;       /* variables that would lower held margins; they stay as they are (n) */
+    double *frozen_at;     /* scaled (n) */
+    double scale;          /* of the objective */
+    double weight;         /* price of violations in its units */
     double *x, *many_f, *many_c, *many_d; /* scratch for `most` designs */
     int most;
 } CzSurface;
@@ -52,9 +56,15 @@ bool cz_surface_try(CzSurface *surface, const char *phase, int n_point, const do
  * increment stay on it to the last bit. */
 bool cz_surface_try_exact(CzSurface *surface, const char *phase, int n_point, int *moved_to);
 
+/* Whether a detail counts in the largest one. */
+static inline bool cz_surface_counts(const CzSurface *surface, int detail) {
+    return !surface->is_held[detail] &&
+           cz_detail_kind(surface->search->function, detail) != CZ_DETAIL_ACTIVATION;
+}
+
 /* The largest detail so far, with detail k of this value where it counts. */
 static inline double cz_surface_counted(double largest, const CzSurface *surface, int k, double c) {
-    return cz_detail_is_activation(surface->search->function, k) ? largest : fmax(largest, c);
+    return cz_surface_counts(surface, k) ? fmax(largest, c) : largest;
 }
 
 /* Planes at scaled u: returns the objective and adds up the violations as the search ranks them. */

@@ -95,7 +95,7 @@ static void fill_draft(Draft *draft, const CzSurface *surface, const double *lo,
         draft->hi[n] = draft->d[n] = fmax(largest, 0) + 1;
     }
     for (int k = 0; k < surface->m; k++) {
-        const bool is_margin = is_minimax && !cz_detail_is_activation(surface->search->function, k);
+        const bool is_margin = is_minimax && cz_surface_counts(surface, k);
         if (!can_matter(surface, k, lo, hi, (is_margin ? floor : 0) - 1e-3))
             continue;
         if (is_margin)
@@ -127,8 +127,9 @@ bool cz_surface_best(const CzSurface *surface, double radius, double *u) {
     double *box = cz_search_numbers(surface->search, 2 * n);
     bool found = box != NULL;
     for (size_t i = 0; i < n && found; i++) {
-        box[i] = fmax(surface->u[i] - radius, 0);
-        box[n + i] = fmin(surface->u[i] + radius, 1);
+        const double reach = surface->is_frozen[i] ? 0 : radius;
+        box[i] = fmax(surface->u[i] - reach, 0);
+        box[n + i] = fmin(surface->u[i] + reach, 1);
     }
     found = found && cz_surface_best_in(surface, box, box + n, surface->usual_reserve, u);
     free(box);

@@ -270,6 +270,11 @@ static void write_worth(const CzReport *report, CzTerminal *terminal) {
             cz_table_write_text(&table, terminal);
         }
     }
+    if (cz_margins_are_capped(report->outcome)) {
+        cz_margins_begin_table(&table, report);
+        fputc('\n', terminal->stream);
+        cz_table_write_text(&table, terminal);
+    }
     cz_relaxation_sentence(report, sizeof text, text);
     if (text[0] != '\0')
         fprintf(terminal->stream, "\n%s\n", text);

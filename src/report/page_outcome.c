@@ -154,6 +154,10 @@ static void write_worth(CzMarkup *markup, const CzReport *report) {
             cz_table_write_page(&table, markup);
         }
     }
+    if (cz_margins_are_capped(report->outcome)) {
+        cz_margins_begin_table(&table, report);
+        cz_table_write_page(&table, markup);
+    }
     cz_relaxation_sentence(report, sizeof text, text);
     if (text[0] != '\0')
         cz_markup_write(markup, "<p>%s</p>\n", text);

@@ -73,6 +73,22 @@ void cz_worth_begin_table(CzReportTable *table, const CzReport *report) {
     }
 }
 
+bool cz_margins_are_capped(const CzOutcome *outcome) {
+    return outcome->n_margin > 0 && outcome->margin[0].is_capped;
+}
+
+void cz_margins_begin_table(CzReportTable *table, const CzReport *report) {
+    const CzOutcome *outcome = report->outcome;
+    cz_table_begin(table, "smallest margins;>margin;raised by a variable");
+    for (int i = 0; i < outcome->n_margin; i++) {
+        char text[CZ_FIGURE_ROOM];
+        cz_table_put(
+            table, cz_evaluator_constraint_name(report->evaluator, outcome->margin[i].constraint));
+        cz_table_put(table, cz_figure_percent(text, outcome->margin[i].margin));
+        cz_table_put(table, outcome->margin[i].is_capped ? "no" : "yes");
+    }
+}
+
 void cz_relaxation_sentence(const CzReport *report, size_t room, char *text) {
     const CzOutcome *outcome = report->outcome;
     const CzRelaxation *relaxation = &outcome->relaxation;

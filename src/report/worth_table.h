@@ -15,6 +15,10 @@ void cz_worth_sentence(const CzReport *report, size_t room, char *text);
 /* The worth of each limit and bound. */
 void cz_worth_begin_table(CzReportTable *table, const CzReport *report);
 
+/* The smallest margins in order; whether there are any that no variable raises. */
+bool cz_margins_are_capped(const CzOutcome *outcome);
+void cz_margins_begin_table(CzReportTable *table, const CzReport *report);
+
 /* A sentence on the smallest relaxation of one limit, "" when none is known; `room` bytes. */
 void cz_relaxation_sentence(const CzReport *report, size_t room, char *text);
 

@@ -51,9 +51,9 @@ static Seen see(const Sweep *sweep) {
     assert_int_equal(cz_evaluator_search(evaluator, N_DESIGN, x, evaluation, detail, &error),
                      CZ_OK);
     Seen seen;
-    bool is_activation[MOST_DETAIL];
-    cz_evaluator_mark_activations(evaluator, is_activation);
-    seen.is_distance = is_activation[0];
+    CzDetailKind kind[MOST_DETAIL];
+    cz_evaluator_detail_kinds(evaluator, kind);
+    seen.is_distance = kind[0] == CZ_DETAIL_ACTIVATION;
     for (int i = 0; i < N_DESIGN; i++) {
         seen.detail[i] = -INFINITY;
         for (int k = 0; k < n; k++)

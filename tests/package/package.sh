@@ -65,6 +65,12 @@ check "the program runs from the unpacked package" unpacked
 check "it looks for its data in /usr/share" sh -c 'cd elsewhere && sed "s|generic.yaml|nowhere-at-all.yaml|" cars.yaml >nowhere.yaml && ! ../unpacked/usr/bin/crushzone validate nowhere.yaml 2>told && grep -q "/usr/share/crushzone" told'
 own_library() { LD_LIBRARY_PATH='' ldd unpacked/usr/bin/crushzone | grep -q "libcrushzone.*/unpacked/usr/.*/lib/crushzone/lib/"; }
 check "it takes its library from the package" own_library
+if [ -d "$SOURCE/python/crushzone" ] && command -v python3 >/dev/null 2>&1; then
+    python() { PATH=$PWD/unpacked/usr/bin:$PATH PYTHONPATH=unpacked/usr/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1 python3 -c 'import crushzone; print(crushzone.Problem("elsewhere/two-trains.yaml").run())'; }
+    check "the Python package in it runs a problem" python
+else
+    skipped "the Python package in it runs a problem" "no python3"
+fi
 [ "${1:-}" = root ] || finish
 
 # ---- a bare Debian ----

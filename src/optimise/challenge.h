@@ -84,6 +84,9 @@ CZ_MUST_CHECK CzStatus cz_challenge_judge(const CzChallenge *challenge, const Cz
                                           CzCheckResult *result, CzJudgedCase *judged,
                                           CzError *error);
 
+/* Whether the caller asked for an end. */
+bool cz_challenge_is_stopped(const CzChallenge *challenge);
+
 /* Runs n points from `first` on as a search does, in one thread or in several: `u` has been filled.
  * Points that an interruption left out have the state CZ_SAMPLE_NOT_RUN. Statuses: CZ_OK,
  * CZ_STATUS_INTERRUPTED, CZ_STATUS_NO_MEMORY. */

@@ -171,11 +171,18 @@ void cz_challenge_report(CzChallenge *challenge, int n) {
     atomic_flag_clear(&parts->is_reporting);
 }
 
+bool cz_challenge_is_stopped(const CzChallenge *challenge) {
+    const volatile sig_atomic_t *stop = challenge->parts->options.stop;
+    return stop != NULL && *stop != 0;
+}
+
 /* Where the reader refuses one of several points, each of them is read by itself. */
 CzStatus cz_challenge_run(CzChallenge *challenge, int first, int n, CzError *error) {
     CzCaseBench bench;
     CzError mistake = {0};
     int number[CZ_POINTS_PER_TASK];
+    if (cz_challenge_is_stopped(challenge)) /* no models are built for points that will not run */
+        return CZ_STATUS_INTERRUPTED;
     for (int k = 0; k < n; k++) {
         number[k] = first + k;
         set_values(challenge, first + k);

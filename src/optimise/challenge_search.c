@@ -196,11 +196,6 @@ static CzStatus corners(CzChallenge *challenge, int n_check, const int *check, C
     return n > 0 ? run_new(challenge, n, "corner", error) : CZ_OK;
 }
 
-static bool is_stopped(const CzChallenge *challenge) {
-    const volatile sig_atomic_t *stop = challenge->parts->options.stop;
-    return stop != NULL && *stop != 0;
-}
-
 /* ---- adversaries ----------------------------------------------------------------------------- */
 
 /* A scaled value on a fine grid, so that an algorithm that comes back meets the same point. */
@@ -304,7 +299,7 @@ static CzStatus run_round(CzChallenge *challenge, int n_adversary, CzAdversary *
             else
                 cz_challenge_drop(challenge, from);
         }
-    return status == CZ_OK && is_stopped(challenge) ? CZ_STATUS_INTERRUPTED : status;
+    return status == CZ_OK && cz_challenge_is_stopped(challenge) ? CZ_STATUS_INTERRUPTED : status;
 }
 
 /* ---- choice of checks ------------------------------------------------------------------------ */

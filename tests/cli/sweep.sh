@@ -38,7 +38,7 @@ check "a value is not swept twice" twice
 piped() { "$C" new -q -o - | "$C" sweep - --vary trains.A.speed_km_h=10:20:2 >out.txt && says out.txt 'Worst: trains.A.speed_km_h'; }
 check "a problem may come from standard input" piped
 interrupted() {
-    "$C" sweep "$cars" --vary trains.A.speed_km_h=5:60:500 --vary trains.B.height_offset_mm=-40:40:500 --jobs 1 -o kept >out.txt 2>err.txt &
+    "$C" sweep "$cars" --vary trains.A.speed_km_h=5:60:120 --vary trains.B.height_offset_mm=-40:40:120 --jobs 1 -o kept >out.txt 2>err.txt &
     process=$!
     sleep 1
     kill -INT $process

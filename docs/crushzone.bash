@@ -3,7 +3,7 @@ _crushzone() {
     local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} words='' options=''
     COMPREPLY=()
     if [ "$COMP_CWORD" = 1 ]; then
-        words='run check optimise sweep sample merge pareto challenge corridor dakota explain verify bench serve report plot compare validate show fit new schema help version'
+        words='run check optimise sweep sample merge pareto challenge corridor dakota export explain verify bench serve report plot compare validate show fit new schema help version'
         COMPREPLY=($(compgen -W "$words" -- "$word"))
         return
     fi
@@ -15,6 +15,7 @@ _crushzone() {
     --integrator) words='zhai erk adams' ;;
     --depfile) COMPREPLY=($(compgen -f -- "$word")); return ;;
     --problem) COMPREPLY=($(compgen -f -- "$word")); return ;;
+    --sqlite) COMPREPLY=($(compgen -f -- "$word")); return ;;
     --vary) return ;;
     --minimise) return ;;
     --points | -n) return ;;
@@ -70,6 +71,7 @@ _crushzone() {
     challenge) options='--output --force --json --quiet --set --time-step-ms --seed --runs --jobs --csv-sep --csv-decimal --color --help' ;;
     corridor) options='--output --force --json --quiet --set --time-step-ms --seed --part --curves --no-scatter --jobs --csv-sep --csv-decimal --color --help' ;;
     dakota) options='--quiet --set --scenario --time-step-ms --problem --jobs --color --help' ;;
+    export) options='--quiet --sqlite --help' ;;
     explain) options='--json --quiet --set --scenario --time-step-ms --jobs --color --help' ;;
     verify) options='--json --quiet --verbose --set --scenario --time-step-ms --jobs --color --help' ;;
     bench) options='--json --quiet --set --scenario --time-step-ms --rounds --color --help' ;;
@@ -88,7 +90,7 @@ _crushzone() {
     if [[ $word == -* ]]; then
         COMPREPLY=($(compgen -W "$options" -- "$word"))
     elif [ "${COMP_WORDS[1]}" = help ]; then
-        COMPREPLY=($(compgen -W 'keys units checks verdicts profiles paths algorithms channels results events figures files exit-codes run check optimise sweep sample merge pareto challenge corridor dakota explain verify bench serve report plot compare validate show fit new schema help version' -- "$word"))
+        COMPREPLY=($(compgen -W 'keys units checks verdicts profiles paths algorithms channels results events figures files exit-codes run check optimise sweep sample merge pareto challenge corridor dakota export explain verify bench serve report plot compare validate show fit new schema help version' -- "$word"))
     elif [ "${COMP_WORDS[1]}" != new ]; then
         COMPREPLY=($(compgen -f -- "$word"))
     else

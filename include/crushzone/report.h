@@ -232,6 +232,13 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_check_file(const CzProblem *problem, con
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_file(const char *path, CzReportWriter *write,
                                                    const void *data, CzError *error);
 
+/* Writes the tables and documents of result folders into an SQLite database, completely or not at
+ * all; an existing file is replaced (docs/exchange.md). Statuses: CZ_STATUS_INPUT for a folder that
+ * is not a result folder, and in a library that was built without SQLite; CZ_STATUS_OUTPUT,
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_export(int n_folder, const char *const *folder,
+                                               const char *path, CzError *error);
+
 /* A rule for make: `target` depends on every file that the problem was read from, such as base
  * files, catalogues, curves and profiles. Each of them is a target without a rule too, so that make
  * goes on when one is removed. */

@@ -9,6 +9,7 @@ set(CZ_SOURCES_cli
     command_fit.c
     command_corridor.c
     command_dakota.c
+    command_export.c
     command_figures.c
     command_merge.c
     command_new.c

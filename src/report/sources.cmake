@@ -17,6 +17,7 @@ set(CZ_SOURCES_report
     drawn.c
     elevation.c
     explanation.c
+    export.c
     figure.c
     folder.c
     inputs_text.c
@@ -73,3 +74,13 @@ set(CZ_SOURCES_report
     verification.c
     worth_table.c
 )
+# Databases, by SQLite where it is installed.
+if(SQLITE_FOUND)
+    list(APPEND CZ_SOURCES_report
+    sqlite_adapter.c
+    )
+else()
+    list(APPEND CZ_SOURCES_report
+    no_sqlite.c
+    )
+endif()

@@ -163,17 +163,29 @@ static void remove_file(const char *path, const struct stat *info, void *data) {
     (void)unlink(path);
 }
 
+enum { MOST_DEPTH = 3 }; /* folders around a file, as SCENARIO/iso-mme/Channel */
+
+/* Length of the outermost folders of a name of n bytes, as many as `depth`; 0 when it is in fewer.
+ */
+static size_t folder_length(const char *name, size_t n, int depth) {
+    for (size_t i = 0; i < n; i++)
+        if (name[i] == '/' && --depth == 0)
+            return i;
+    return 0;
+}
+
 void cz_remove_files(const char *folder, const char *marker) {
     char path[PATH_MAX];
     cz_marker_add(folder, given_up, ""); /* if this process dies, another one removes the rest */
     cz_each_temporary(folder, remove_file, NULL);
-    for (int pass = 0; pass < 2 && marker != NULL; pass++) /* files, then the folders around them */
+    /* Files, then the folders around them, innermost first. */
+    for (int depth = MOST_DEPTH; depth >= 0 && marker != NULL; depth--)
         for (const char *line = marker; *line != '\0';) {
-            const size_t n = strcspn(line, "\n"), n_folder = strcspn(line, "/\n");
-            const int shown = (int)(pass == 0 ? n : n_folder);
-            if (is_inside(line, n) && (pass == 0 || n_folder < n) &&
-                snprintf(path, sizeof path, "%s/%.*s", folder, shown, line) < PATH_MAX)
-                (void)(pass == 0 ? unlink(path) : rmdir(path));
+            const size_t n = strcspn(line, "\n");
+            const size_t shown = depth == MOST_DEPTH ? n : folder_length(line, n, depth + 1);
+            if (is_inside(line, n) && shown > 0 &&
+                snprintf(path, sizeof path, "%s/%.*s", folder, (int)shown, line) < PATH_MAX)
+                (void)(depth == MOST_DEPTH ? unlink(path) : rmdir(path));
             line += n + (line[n] == '\n');
         }
     if (cz_path_in(path, folder, CZ_MARKER_NAME, NULL) == CZ_OK)

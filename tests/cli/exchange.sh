@@ -1,4 +1,4 @@
-# Formats for the exchange with other programs: ISO-MME.
+# Formats for the exchange with other programs: ISO-MME, SQLite.
 . "$SOURCE/tests/support/cases.sh"
 . "$SOURCE/tests/cli/cli.sh"
 cp "$SOURCE/problems/length-or-force.yaml" two-cars.yaml
@@ -9,11 +9,11 @@ cp -r "$SOURCE/problems/catalogue" "$SOURCE/problems/buffer-choice.yaml" .
 mme() {
     exits 0 "$C" run two-cars.yaml --iso-mme -o cars -q && cp -r cars before && exits 0 "$C" run two-cars.yaml --iso-mme -o cars -q &&
         diff -r before/iso-mme cars/iso-mme && [ "$(ls cars/iso-mme)" = "Channel
-collision.mme" ] && [ "$(ls cars/iso-mme/Channel | wc -l)" = 20 ] && exits 0 "$C" run two-cars.yaml -o cars -q && [ ! -e cars/iso-mme ]
+collision.mme" ] && [ "$(ls cars/iso-mme/Channel | wc -l)" = 20 ] && exits 0 "$C" run two-cars.yaml -o cars -q && [ ! -e cars/iso-mme ] && [ -z "$(ls -A | grep '^.crushzone')" ]
 }
 check "run --iso-mme writes a test folder, the same bytes again, and replaces it" mme
 families() { # a test for each scenario, beside its other results
-    exits 0 "$C" run buffer-choice.yaml --iso-mme -o buffers -q && says buffers/8-km-h/iso-mme/8-km-h.mme 'Name of test object 2       :B' &&
+    exits 0 "$C" run buffer-choice.yaml --iso-mme -o buffers -q && exits 0 "$C" run buffer-choice.yaml --iso-mme -o buffers -q && [ -z "$(ls -A | grep '^.crushzone')" ] && says buffers/8-km-h/iso-mme/8-km-h.mme 'Name of test object 2       :B' &&
         says buffers/12-km-h/iso-mme/Channel/12-km-h.chn ':20VEHCCG0002VEX0 / v_B2'
 }
 check "each scenario has a test of its own" families
@@ -49,4 +49,44 @@ END
         mv first gone && exits 0 "$C" check fitted/resolved.yaml && mv gone first
 }
 check "a history in ISO-MME is matched, also in the folder of the results" match
+
+# ---- SQLite ----
+
+ask() { # ask STATEMENT: its rows, columns between |
+    if command -v sqlite3 >/dev/null; then sqlite3 study.db "$1"; else python3 -c 'import sqlite3, sys
+for row in sqlite3.connect("study.db").execute(sys.argv[1]):
+    print("|".join("" if value is None else str(value) for value in row))' "$1"; fi
+}
+exits 0 "$C" sweep two-cars.yaml --vary trains.A.speed_km_h=10:25:4 --csv-sep ';' --csv-decimal , -o swept -q
+exits 0 "$C" optimise two-cars.yaml --evaluations 4 -o searched -q
+[ -d buffers ] || exits 0 "$C" run buffer-choice.yaml -o buffers -q
+study() { exits 0 "$C" export first buffers swept searched --sqlite study.db && [ -z "$(ls -A | grep '^.crushzone')" ] && says err.txt 'wrote study.db'; }
+if ! "$C" export first --sqlite probe.db >probe.txt 2>&1 && grep -q 'built without SQLite' probe.txt; then
+    skipped "export writes a database" "built without SQLite"
+elif ! command -v sqlite3 >/dev/null && ! python3 -c 'import sqlite3' 2>/dev/null; then
+    skipped "export writes a database" "there is neither sqlite3 nor Python's module of that name"
+else
+    check "export writes a database of several folders" study
+    tables() { [ "$(ask "SELECT name FROM sqlite_master WHERE type = 'table' ORDER BY name" | tr '\n' ' ')" = 'channels checks documents history interfaces sweep ' ]; }
+    check "every kind of file is a table" tables
+    rows() { # as many rows as the files have lines, by folder and scenario
+        [ "$(ask "SELECT count(*) FROM channels WHERE folder = 'buffers' AND scenario = '8-km-h'")" = $(($(wc -l <buffers/8-km-h/channels.csv) - 1)) ] &&
+            [ "$(ask "SELECT count(*) FROM checks WHERE folder = 'buffers'")" = 3 ] && [ "$(ask "SELECT DISTINCT scenario FROM checks WHERE folder = 'first'")" = collision ]
+    }
+    check "rows are those of the files, with folder and scenario" rows
+    numbers() { # numbers are numbers, also with decimal commas, and texts are texts
+        [ "$(ask "SELECT typeof(\"trains.A.speed_km_h\"), typeof(margin), typeof(state) FROM sweep LIMIT 1")" = 'integer|real|text' ] &&
+            [ "$(ask "SELECT count(*) FROM sweep WHERE \"interfaces.peak_force_kN\" BETWEEN 600 AND 800")" = 3 ] && [ "$(ask "SELECT typeof(\"F_A1-B1_kN\") FROM channels WHERE folder = 'buffers' LIMIT 1")" = null ]
+    }
+    check "columns have the types of their values" numbers
+    documents() { [ "$(ask "SELECT json_extract(document, '\$.verdict') FROM documents WHERE folder = 'first' AND name = 'summary'")" = pass ] && [ "$(ask "SELECT count(*) FROM documents WHERE name = 'outcome'")" = 1 ]; }
+    check "documents are there as JSON" documents
+    replaced() { exits 0 "$C" export first --sqlite study.db -q && [ ! -s err.txt ] && [ "$(ask 'SELECT DISTINCT folder FROM checks')" = first ]; }
+    check "a database is replaced as a whole" replaced
+fi
+unread() {
+    cp two-cars.yaml study.txt && exits 2 "$C" export catalogue --sqlite study.txt && says err.txt 'catalogue is not a result folder' && cmp study.txt two-cars.yaml &&
+        exits 2 "$C" export first && says err.txt '--sqlite FILE.db' && exits 4 "$C" export first --sqlite first/summary.json && says err.txt 'is a result of crushzone'
+}
+"$C" export first --sqlite probe.db >probe.txt 2>&1 && check "a folder without results is refused, and no result is replaced" unread
 finish

@@ -5,6 +5,7 @@ cz_test(test_tables unit test_tables.c stand_in.c stand_in_pages.c)
 cz_test(test_folder errors test_folder.c stand_in.c stand_in_pages.c)
 cz_test(test_figures unit test_figures.c)
 cz_test(test_iso_mme unit test_iso_mme.c)
+cz_test(test_no_sqlite unit test_no_sqlite.c src/report/no_sqlite.c)
 cz_test(test_verification unit test_verification.c stand_in.c stand_in_pages.c)
 cz_test(test_page errors test_page.c)
 target_link_options(test_page PRIVATE

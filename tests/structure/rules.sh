@@ -138,7 +138,7 @@ angles_in_laws() {
 
 # A third-party library is named in one file, so that it can be replaced.
 third_party_headers() {
-    for header in mpi.h nlopt.h yaml.h jansson.h 'cvode/' 'arkode/' 'kinsol/' 'sundials/' pthread.h getopt.h; do
+    for header in mpi.h nlopt.h yaml.h jansson.h sqlite3.h 'cvode/' 'arkode/' 'kinsol/' 'sundials/' pthread.h getopt.h; do
         files=$(grep -rlE "#[[:space:]]*include[[:space:]]*[<\"]$header" src include)
         [ "$(echo "$files" | wc -l)" -le 1 ] || echo "$header in" $files
     done

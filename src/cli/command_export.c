@@ -1,0 +1,19 @@
+/* `export`: result folders as a database. */
+#include "cli/command.h"
+#include "cli/messages.h"
+#include "crushzone/report.h"
+
+int cz_command_export(const CzArguments *arguments) {
+    const char *path = arguments->text[CZ_OPTION_SQLITE];
+    CzError error = {0};
+    if (path == NULL)
+        return cz_tell_error(arguments, &(CzError){.status = CZ_STATUS_INPUT,
+                                                   .message = "the file is missing: give --sqlite "
+                                                              "FILE.db"});
+    const CzStatus status =
+        cz_report_export(arguments->n_operand, arguments->operand, path, &error);
+    if (status != CZ_OK)
+        return cz_tell_error(arguments, &error);
+    cz_tell(arguments, "wrote %s", path);
+    return 0;
+}

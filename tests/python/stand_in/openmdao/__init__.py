@@ -1,0 +1,1 @@
+"""A small stand-in for OpenMDAO, which is not in Debian."""

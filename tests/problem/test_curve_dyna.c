@@ -68,6 +68,7 @@ static void a_curve_is_read_with_its_scale_and_offset(void **state) {
         if (i == 3) { /* one point is no curve */
             assert_int_equal(status, CZ_STATUS_INPUT);
             assert_int_equal(error.line, 2);
+            cz_arena_free(&arena);
             continue;
         }
         if (status != CZ_OK)

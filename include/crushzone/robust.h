@@ -5,11 +5,13 @@
  *     +---- further scenarios: ---+-- weak points --+
  *           samples at the statistic
  *
- * The first search knows the scenarios of the file alone. The best design is judged in all samples
- * of `uncertainty:`; for each check whose statistic fails, the sample at that statistic becomes a
- * scenario of the next search, which begins at the best design so far. A design that holds is
- * challenged over the operating envelope, and weak points become scenarios as well. It is called
- * feasible only when all samples and the adversary leave it standing.
+ * A start that passes in the scenarios of the file is judged first, so that no search ends worse
+ * than it began. The first search knows these scenarios and those that broke the start. The best
+ * design is judged in all samples of `uncertainty:`; for each check whose statistic fails, the
+ * sample at that statistic becomes a scenario of the next search, which begins at the best design
+ * so far. A design that holds is challenged over the operating envelope, and weak points become
+ * scenarios as well. It is called feasible only when all samples and the adversary leave it
+ * standing.
  */
 #ifndef CRUSHZONE_ROBUST_H
 #define CRUSHZONE_ROBUST_H
@@ -23,7 +25,7 @@ CZ_BEGIN_DECLARATIONS
 /* One search with its best design. */
 typedef struct CzRobustRound {
     int n_scenario;         /* of its search: those of the file, samples and weak points */
-    long n_evaluation;      /* of its search */
+    long n_evaluation;      /* of its search; 0: its design is the start */
     double nominal_margin;  /* smallest margin of the file's scenarios, with their reserves */
     double required_margin; /* smallest of the statistics over all checks; -infinity when a run of a
                                sample failed, NaN after an interruption */

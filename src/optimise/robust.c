@@ -120,7 +120,7 @@ static CzStatus keep_history(Robust *robust, const CzCombinations *combinations,
  * left after a round without progress (ours). */
 static long evaluations_of(const Robust *robust) {
     const long all = robust->options.evaluations, left = all - robust->n_trial;
-    const bool is_first = robust->result->n_round == 0;
+    const bool is_first = robust->n_trial == 0;
     const long share = is_first ? all / 3 : robust->n_idle > 0 ? left / 2 : all / 8;
     const long wanted = share > FEWEST_EVALUATIONS ? share : FEWEST_EVALUATIONS;
     return wanted < left ? wanted : left;
@@ -134,7 +134,7 @@ static CzStatus search(Robust *robust, CzRobustRound *round, CzError *error) {
     CzJournal journal;
     if (options.journal != NULL) {
         journal = cz_journal_rest(options.journal, robust->n_answered);
-        journal.n_earlier = robust->result->n_round == 0 ? journal.n_earlier : 0;
+        journal.n_earlier = robust->n_trial == 0 ? journal.n_earlier : 0;
         options.journal = &journal;
     }
     options.evaluations = evaluations_of(robust);
@@ -315,26 +315,53 @@ static CzStatus judge(Robust *robust, CzRobustRound *round, Found *found, int *n
     return CZ_OK;
 }
 
-static CzStatus run_round(Robust *robust, bool *goes_on, CzError *error) {
+/* Begins a round with its scenarios; it is counted once it has a design. */
+static CzStatus begin_round(Robust *robust, CzRobustRound **round, CzError *error) {
     CzRobust *result = robust->result;
     CzRobustRound *rounds = realloc(result->round, (size_t)(result->n_round + 1) * sizeof *rounds);
     if (rounds == NULL)
         return cz_no_memory(error, "the rounds");
     result->round = rounds;
-    CzRobustRound *round = &rounds[result->n_round];
-    *round = (CzRobustRound){.n_weak = -1};
-    int n_new = 0;
+    *round = &rounds[result->n_round];
+    **round = (CzRobustRound){.n_weak = -1};
     CZ_TRY(build(robust, error));
-    round->n_scenario = cz_problem_n_scenario(result->problem);
-    CZ_TRY(search(robust, round, error));
-    result->n_round++;
+    (*round)->n_scenario = cz_problem_n_scenario(result->problem);
+    return CZ_OK;
+}
+
+/* Judges the design of a round. */
+static CzStatus end_round(Robust *robust, CzRobustRound *round, int *n_new, CzError *error) {
     Found found = {0};
-    const CzStatus status = judge(robust, round, &found, &n_new, error);
+    robust->result->n_round++;
+    const CzStatus status = judge(robust, round, &found, n_new, error);
     free_found(&found);
-    if (status != CZ_OK)
-        return status;
+    return status;
+}
+
+/* A start that passes in the scenarios of the file is judged first, as a round without a search, so
+ * that no search ends worse than it began. */
+static CzStatus judge_start(Robust *robust, CzError *error) {
+    CzEvaluation evaluation;
+    CzRobustRound *round = NULL;
+    int n_new = 0;
+    memcpy(robust->x, robust->best, (size_t)robust->n_variable * sizeof *robust->x);
+    CZ_TRY(cz_evaluate(robust->plain, 1, robust->x, false, &evaluation, error));
+    const bool passes = evaluation.status == CZ_OK && evaluation.violation <= 0;
+    cz_evaluation_free(&evaluation);
+    if (!passes)
+        return CZ_OK;
+    CZ_TRY(begin_round(robust, &round, error));
+    return end_round(robust, round, &n_new, error);
+}
+
+static CzStatus run_round(Robust *robust, bool *goes_on, CzError *error) {
+    CzRobustRound *round = NULL;
+    int n_new = 0;
+    CZ_TRY(begin_round(robust, &round, error));
+    CZ_TRY(search(robust, round, error));
+    CZ_TRY(end_round(robust, round, &n_new, error));
     const bool has_more = robust->options.evaluations - robust->n_trial >= FEWEST_EVALUATIONS &&
-                          result->n_round < MOST_ROUNDS;
+                          robust->result->n_round < MOST_ROUNDS;
     robust->n_idle = n_new > 0 || robust->has_improved ? 0 : robust->n_idle + 1;
     *goes_on = has_more && !(holds(robust) && n_new == 0) && robust->n_idle < MOST_IDLE &&
                !is_stopped(robust);
@@ -424,6 +451,7 @@ static CzStatus run(Robust *robust, CzError *error) {
         robust->best[i] = robust->options.start != NULL
                               ? robust->options.start[i]
                               : cz_evaluator_variable(robust->plain, (int)i)->start;
+    CZ_TRY(judge_start(robust, error));
     while (goes_on)
         CZ_TRY(run_round(robust, &goes_on, error));
     return fill_outcome(robust, error);

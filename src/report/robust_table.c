@@ -12,7 +12,11 @@
 enum { MOST_CHECKS = 12 };
 
 static void put_round(CzReportTable *table, const CzRobustRound *round, int number) {
-    cz_table_put_format(table, "%d%s", number, round->is_best ? " (result)" : "");
+    const char *result = round->is_best ? " (result)" : "";
+    if (round->n_evaluation == 0)
+        cz_table_put_format(table, "start%s", result);
+    else
+        cz_table_put_format(table, "%d%s", number, result);
     cz_table_put_format(table, "%d", round->n_scenario);
     cz_table_put_format(table, "%ld", round->n_evaluation);
     cz_sample_put_margin(table, round->nominal_margin);
@@ -27,8 +31,9 @@ static void put_round(CzReportTable *table, const CzRobustRound *round, int numb
 void cz_robust_begin_rounds(CzReportTable *table, const CzRobust *robust) {
     cz_table_begin(table, "round;>scenarios;>evaluations;>smallest margin;>in samples;>samples "
                           "that pass;>weak points");
+    const int n_start = robust->n_round > 0 && robust->round[0].n_evaluation == 0 ? 1 : 0;
     for (int i = 0; i < robust->n_round; i++)
-        put_round(table, &robust->round[i], i + 1);
+        put_round(table, &robust->round[i], i + 1 - n_start);
 }
 
 void cz_robust_begin_checks(CzReportTable *table, const CzRobust *robust, const int *order,

@@ -127,6 +127,27 @@ static void threads_do_not_matter(void **state) {
     cz_problem_free(problem);
 }
 
+/* The search of a few designs finds the nominal optimum, which is worse in samples. */
+static void a_start_that_holds_is_kept(void **state) {
+    (void)state;
+    CzProblem *problem = read_with(scatter);
+    CzRobust *first = search(problem, 0, NULL), *again = NULL;
+    CzOptimiseOptions options = cz_optimise_options_default();
+    CzError error = {0};
+    options.verify_methods = 0;
+    options.evaluations = 12;
+    options.start = first->outcome->best;
+    assert_int_equal(cz_optimise_robust(problem, NULL, &options, &again, &error), CZ_OK);
+    assert_int_equal(again->round[0].n_evaluation, 0);
+    assert_true(again->round[0].is_best);
+    assert_true(again->round[1].required_margin < again->round[0].required_margin - 0.01);
+    assert_int_equal(again->outcome->status, CZ_OUTCOME_FEASIBLE);
+    assert_near(again->outcome->best[0], first->outcome->best[0], 0, 0);
+    cz_robust_free(first);
+    cz_robust_free(again);
+    cz_problem_free(problem);
+}
+
 /* No force bears a scatter of 40 %: never a success with a violated statistic. */
 static void too_much_scatter_is_not_feasible(void **state) {
     (void)state;
@@ -201,6 +222,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_optimum_against_scatter_is_that_of_the_closed_form),
         cmocka_unit_test(threads_do_not_matter),
+        cmocka_unit_test(a_start_that_holds_is_kept),
         cmocka_unit_test(too_much_scatter_is_not_feasible),
         cmocka_unit_test(other_statistics_ask_for_less),
         cmocka_unit_test(a_stop_ends_the_search),

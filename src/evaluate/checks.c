@@ -106,7 +106,7 @@ static bool is_by_place(const CzCheck *check) {
 }
 
 bool cz_check_is_activation(const CzCheck *check) {
-    const double most_scales = 10; /* of a limit on next to nothing; ours */
+    const double most_scales = 1; /* a larger limit allows an energy, whose margin counts; ours */
     return !check->is_minimum && check->missing == NULL && is_by_place(check) &&
            cz_metric_has_activation(check->metric.kind) &&
            check->limit <= most_scales * check->metric.kind->scale;

@@ -131,9 +131,11 @@ CzStatus cz_outcome_verify(CzEvaluator *evaluator, const CzOptimiseOptions *opti
     const CzStatus status =
         cz_outcome_verify_design(evaluator, options, outcome->best, &outcome->best_evaluation,
                                  &outcome->verification, error);
-    if (status == CZ_OK)
-        outcome->status = outcome->verification->verdict == CZ_VERDICT_PASS ? CZ_OUTCOME_FEASIBLE
-                                                                            : CZ_OUTCOME_UNVERIFIED;
+    if (status == CZ_OK) /* parameters of a fit are judged by the measurement alone */
+        outcome->status =
+            outcome->verification->verdict == CZ_VERDICT_PASS || cz_evaluator_is_fit(evaluator)
+                ? CZ_OUTCOME_FEASIBLE
+                : CZ_OUTCOME_UNVERIFIED;
     if (status != CZ_STATUS_INTERRUPTED)
         return status;
     outcome->status = CZ_OUTCOME_INTERRUPTED;

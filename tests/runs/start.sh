@@ -48,7 +48,7 @@ failure_is_told() {
     ! installs build && grep -q 'no such archive' said && grep -q 'Installing cmake failed' said
 }
 list_is_known_to_debian() { # every package of the list has a section and a plausible name
-    ! grep -vE '^(#.*|\[(run-time|build|test|browser|bench)\]|[a-z0-9][a-z0-9.+-]+( \([a-z]+\))?( +# .*)?)?$' "$SOURCE/packages.txt"
+    ! grep -vE '^(#.*|\[(run-time|build|test|browser|mpi|cluster|python|package|bench)\]|[a-z0-9][a-z0-9.+-]+( \([a-z0-9-]+\))?( +# .*)?)?$' "$SOURCE/packages.txt"
 }
 a_foreign_node_is_left_alone() { # of the browser's packages only the browser is installed, whatever dpkg knows of node and npm
     stand_in dpkg-query 'exit 1'

@@ -54,9 +54,10 @@ static int next_card(const CzSource *source, int line, int end) {
 static bool take_field(const char *line, int index, int width, CzField *field) {
     if (strchr(line, ',') != NULL)
         return cz_field_take(line, ',', index, field);
-    const size_t first = (size_t)(index * width), n = strlen(line);
-    *field = (CzField){line + (first < n ? first : n), 0, (int)first + 1};
-    if (first >= n)
+    const size_t n = strlen(line), begin = (size_t)(index * width);
+    const size_t first = begin < n ? begin : n;
+    *field = (CzField){line + first, 0, (int)first + 1};
+    if (first == n)
         return false;
     field->n = n - first < (size_t)width ? n - first : (size_t)width;
     for (; field->n > 0 && isspace((unsigned char)*field->text); field->n--) {

@@ -99,7 +99,7 @@ static void a_mistake_is_reported_at_its_place(void **state) {
         {"*DEFINE_CURVE\n1\n0,0\n1,1 kN\n", "s_mm", "F_kN", 4, 3, "ordinate: '1 kN' is not a"},
         {"*DEFINE_CURVE\n1\n  0.0 0.0           5.0\n", "s_mm", "F_kN", 3, 3,
          "abscissa: '0.0 0.0' is not a number"},
-        {"*DEFINE_CURVE\n1\n0,0\n1\n", "s_mm", "F_kN", 4, 21, "this point has no ordinate"},
+        {"*DEFINE_CURVE\n1\n0,0\n1\n", "s_mm", "F_kN", 4, 2, "this point has no ordinate"},
         {"*DEFINE_CURVE\n1\n0,0\n,1\n", "s_mm", "F_kN", 4, 1, "this point has no abscissa"},
         {"*DEFINE_CURVE\n1\n0,0\n1,1,1\n", "s_mm", "F_kN", 4, 5, "this line has more"},
         {"*DEFINE_CURVE_SMOOTH\n1\n0,0\n1,1\n", "s_mm", "F_kN", 1, 1,

@@ -81,6 +81,7 @@ static void values_are_read_to_the_same_bits(void **state) {
             n_given += !isnan(value[k]);
         if (n_given < 2) { /* a history that has nowhere a value cannot be read */
             assert_int_equal(status, CZ_STATUS_INPUT);
+            cz_arena_free(&arena);
             continue;
         }
         if (status != CZ_OK)

@@ -1,4 +1,4 @@
-/* Tells workers of studies. */
+/* Sends descriptions of studies to workers. */
 #include "evaluate/study.h"
 
 #include <stdint.h>

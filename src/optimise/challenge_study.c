@@ -10,15 +10,10 @@
 /* Kinds of tasks. */
 enum { POINTS, ADVERSARY, FULL_RUN };
 
-static bool is_stopped(const CzChallenge *challenge) {
-    const volatile sig_atomic_t *stop = challenge->parts->options.stop;
-    return stop != NULL && *stop != 0;
-}
-
 /* Whether a worker can run tasks: designs of a caller are not described. */
 static bool begin_request(const CzChallenge *challenge, int kind, CzMemoryText *request) {
     cz_put_int(request, kind);
-    return challenge->parts->x == NULL && !is_stopped(challenge);
+    return challenge->parts->x == NULL && !cz_challenge_is_stopped(challenge);
 }
 
 /* ---- points ---------------------------------------------------------------------------------- */

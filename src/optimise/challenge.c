@@ -11,7 +11,7 @@
 #include "evaluate/tasks.h"
 
 CzChallengeOptions cz_challenge_options_default(void) {
-    return (CzChallengeOptions){.n_run = 200, .seed = -1, .most_weak = 10};
+    return (CzChallengeOptions){.n_run = 500, .seed = -1, .most_weak = 10};
 }
 
 /* ---- memory ---------------------------------------------------------------------------------- */

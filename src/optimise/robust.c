@@ -21,7 +21,7 @@ enum {
 };
 
 /* What designs are ranked by. */
-enum { NOMINAL, SAMPLES, VIOLATION, OBJECTIVE, N_KEY };
+enum { NOMINAL, SAMPLES, RUNS, VIOLATION, OBJECTIVE, N_KEY };
 
 /* The search, while it runs. */
 typedef struct Robust {
@@ -249,14 +249,16 @@ static void fill_round(CzRobustRound *round, const CzSampling *sampling) {
 }
 
 /* Ranks a design: the first difference decides, the smaller value is better. Nominal constraints
- * come first, then the samples that fail, the violation of their statistics, the objective. */
+ * come first, then the samples that fail, the runs of the adversary that break it, the violation of
+ * the samples' statistics, the objective. */
 static void rank(const Robust *robust, const CzRobustRound *round, const Found *found,
                  double key[N_KEY]) {
     const CzEvaluation *nominal = &found->sampling->nominal;
-    const bool is_broken = found->challenge != NULL && found->challenge->is_broken;
+    const CzChallenge *challenge = found->challenge;
     key[NOMINAL] = fmax(nominal->violation, 0);
     key[SAMPLES] = violation_in(found->sampling) > 0 ? round->n_sample - round->n_pass : 0;
-    key[VIOLATION] = fmax(violation_in(found->sampling), is_broken ? CZ_ROBUST_NEAR : 0);
+    key[RUNS] = challenge != NULL && challenge->is_broken ? fmax(challenge->n_fail, 1) : 0;
+    key[VIOLATION] = violation_in(found->sampling);
     key[OBJECTIVE] = nominal->objective;
     if (cz_evaluator_maximises_margin(robust->plain))
         key[OBJECTIVE] = -fmin(-nominal->objective, round->required_margin);
@@ -287,7 +289,8 @@ static void compare(Robust *robust, Found *found) {
 
 /* Whether the best design holds in all samples, and the adversary did not break it. */
 static bool holds(const Robust *robust) {
-    return robust->key[NOMINAL] <= 0 && robust->key[SAMPLES] <= 0 && robust->key[VIOLATION] <= 0;
+    return robust->key[NOMINAL] <= 0 && robust->key[SAMPLES] <= 0 && robust->key[RUNS] <= 0 &&
+           robust->key[VIOLATION] <= 0;
 }
 
 /* Judges the design of the round and takes further scenarios from what breaks it; *n_new is their

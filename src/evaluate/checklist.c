@@ -270,23 +270,38 @@ static CzStatus append_rule(Builder *builder, const Rule *rule) {
     return CZ_OK;
 }
 
+static bool has_obstacle(const CzScene *scene) {
+    return scene->is_obstacle[0] || scene->is_obstacle[1];
+}
+
+static bool has_obstacles_only(const Builder *builder) {
+    for (int s = 0; s < builder->n_scene; s++)
+        if (!has_obstacle(&builder->scene[s]))
+            return false;
+    return true;
+}
+
 /* Largest closing speed up to a bound among the scenarios to which all checks apply, 0 when there
- * is none [m/s]. */
+ * is none [m/s]. Where the problem has two trains that collide, obstacles do not count: mass and
+ * speed of a collision with one are given. */
 static double fastest_up_to(const Builder *builder, double bound) {
+    const bool any_partner = has_obstacles_only(builder);
     double fastest = 0;
     for (int s = 0; s < builder->n_scene; s++) {
         const CzScene *scene = &builder->scene[s];
         if (!scene->is_overload && scene->has_reserves && scene->judged_by == NULL &&
-            scene->closing_speed * (1 - 1e-9) <= bound)
+            (any_partner || !has_obstacle(scene)) && scene->closing_speed * (1 - 1e-9) <= bound)
             fastest = fmax(fastest, scene->closing_speed);
     }
     return fastest;
 }
 
 static bool covers_overload(const Builder *builder) {
+    const bool any_partner = has_obstacles_only(builder);
     const double needed = CZ_OVERLOAD_FACTOR * fastest_up_to(builder, INFINITY) * (1 - 1e-9);
     for (int s = 0; s < builder->n_scene; s++)
         if (builder->scene[s].is_overload && builder->scene[s].judged_by == NULL &&
+            (any_partner || !has_obstacle(&builder->scene[s])) &&
             builder->scene[s].closing_speed >= needed)
             return true;
     return false;

@@ -72,6 +72,50 @@ static void a_scenario_with_selected_checks_is_not_a_design_speed(void **state) 
     end(&made);
 }
 
+#define LEVEL_CROSSING                                                                             \
+    "schema: 1\n"                                                                                  \
+    "title: a car, another, and an obstacle\n"                                                     \
+    "parts:\n"                                                                                     \
+    "  end: {face_gap_mm: 0, unloading_stiffness_MN_m: 600, stages: [{stroke_mm: 5, force_MN: "    \
+    "3}]}\n"                                                                                       \
+    "trains:\n"                                                                                    \
+    "  - {name: A, vehicles: [{name: A1, model: rigid, mass_t: 40, front: {use: end}}]}\n"         \
+    "  - {name: B, vehicles: [{name: B1, model: rigid, mass_t: 40, rear: {use: end}}]}\n"          \
+    "  - {name: O, role: obstacle, vehicles: [{name: O1, model: rigid, mass_t: 15, rear: {use: "   \
+    "end}}]}\n"                                                                                    \
+    "scenarios:\n"
+
+/* The speed onto an obstacle is that of a level crossing: neither an overload case nor a speed
+ * between service and design speed follows from it, unless there is no other partner. */
+static void the_speed_onto_an_obstacle_is_no_design_speed_beside_another_train(void **state) {
+    (void)state;
+    Case made = {0};
+    CzError error = {0};
+    static const char *const scenarios[] = {
+        "  - {name: crash, speed_km_h: 25}\n"
+        "  - {name: crossing, trains: [A, O], speed_km_h: 90}\n"
+        "  - {name: overload, speed_km_h: 27.5, mass_factor: 1.1}\n",
+        "  - {name: crash, speed_km_h: 25}\n"
+        "  - {name: overload, trains: [A, O], speed_km_h: 99, mass_factor: 1.1}\n",
+        "  - {name: crossing, trains: [A, O], speed_km_h: 90}\n"
+        "  - {name: overload, trains: [A, O], speed_km_h: 99, mass_factor: 1.1}\n",
+        "  - {name: crossing, trains: [A, O], speed_km_h: 90}\n"
+        "  - {name: overload, trains: [A, O], speed_km_h: 27.5, mass_factor: 1.1}\n",
+    };
+    static const bool is_covered[] = {true, false, true, false};
+    for (int i = 0; i < 4; i++) {
+        stand_in_reset();
+        made.problem = problem_of_text(LEVEL_CROSSING, scenarios[i]);
+        assert_int_equal(cz_evaluator_build(made.problem, NULL, &made.evaluator, &error), CZ_OK);
+        assert_int_equal(cz_evaluate(made.evaluator, 1, NULL, false, &made.evaluation, &error),
+                         CZ_OK);
+        assert_int_equal(find(&made, "bottoming out under overload", "design") == NULL,
+                         is_covered[i]);
+        end(&made);
+        made = (Case){0};
+    }
+}
+
 /* The objective belongs to the design case: a scenario beyond the design speed does not count. */
 static void the_objective_leaves_out_a_scenario_with_selected_checks(void **state) {
     (void)state;
@@ -174,6 +218,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(only_the_named_checks_and_limits_that_name_it_judge_a_scenario),
         cmocka_unit_test(a_scenario_with_selected_checks_is_not_a_design_speed),
+        cmocka_unit_test(the_speed_onto_an_obstacle_is_no_design_speed_beside_another_train),
         cmocka_unit_test(the_objective_leaves_out_a_scenario_with_selected_checks),
         cmocka_unit_test(a_rule_that_judges_nowhere_is_not_checked),
         cmocka_unit_test(an_unknown_check_in_judged_by_is_refused_with_its_place),

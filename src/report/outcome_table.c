@@ -12,6 +12,7 @@
 #include "report/worth_table.h"
 
 #include <math.h>
+#include <string.h>
 
 /* The objective before and after. */
 static void write_objective(const CzEvaluator *evaluator, const CzOutcome *outcome,
@@ -240,20 +241,41 @@ void cz_outcome_put_constraint(CzReportTable *table, const CzEvaluator *evaluato
     cz_table_put(table, check != NULL ? cz_figure_margin(text, margin) : "");
 }
 
-/* Every constraint that the best design violates; a constraint may also be a target, which has no
- * check. */
+int cz_outcome_n_violated(const CzEvaluation *best, int constraint) {
+    int n = best->constraint[constraint] > 0 ? 1 : 0;
+    if (n == 0 || best->constraint_check == NULL)
+        return n;
+    for (int i = 0; i < best->n_constraint; i++) {
+        if (i == constraint || best->constraint[i] <= 0 ||
+            strcmp(best->constraint_check[i].name, best->constraint_check[constraint].name) != 0)
+            continue;
+        if (best->constraint[i] > best->constraint[constraint] ||
+            (best->constraint[i] == best->constraint[constraint] && i < constraint))
+            return 0;
+        n++;
+    }
+    return n;
+}
+
+/* Every check that the best design violates, in its worst scenario; a constraint may also be a
+ * target, which is not among the checks above. */
 static void write_violations(const CzEvaluator *evaluator, const CzOutcome *outcome,
                              CzTerminal *terminal) {
     const CzEvaluation *best = &outcome->best_evaluation;
     if (best->violation <= 0 || best->n_constraint == best->n_match)
         return; /* the matches of a fit have a table of their own */
+    char text[CZ_FIGURE_ROOM];
     CzReportTable table;
-    cz_table_begin(&table, "violated;" CZ_CONSTRAINT_HEADS);
-    for (int i = 0; i < best->n_constraint; i++)
-        if (best->constraint[i] > 0)
-            cz_outcome_put_constraint(
-                &table, evaluator, best, i,
-                best->constraint_check != NULL ? best->constraint_check[i].margin : NAN);
+    cz_table_begin(&table, "violated, worst scenario;" CZ_CONSTRAINT_HEADS ";>scenarios");
+    for (int i = 0; i < best->n_constraint; i++) {
+        const int n = cz_outcome_n_violated(best, i);
+        if (n == 0)
+            continue;
+        cz_outcome_put_constraint(&table, evaluator, best, i,
+                                  best->constraint_check != NULL ? best->constraint_check[i].margin
+                                                                 : NAN);
+        cz_table_put(&table, cz_figure_digits(text, 9, n));
+    }
     fputc('\n', terminal->stream);
     cz_table_write_text(&table, terminal);
 }

@@ -3,6 +3,7 @@
 
 #include "evaluate/evaluator.h"
 #include "report/figure.h"
+#include "report/outcome_table.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -16,12 +17,17 @@ static void write_conflict(const CzReport *report, size_t room, char *text) {
     const CzEvaluation *best = &report->outcome->best_evaluation;
     size_t n = (size_t)snprintf(text, room, "These limits conflict: ");
     const char *between = "";
-    for (int i = 0; i < best->n_constraint && n < room; i++)
-        if (best->constraint[i] > 0) {
-            n += (size_t)snprintf(text + n, room - n, "%s%s", between,
-                                  cz_evaluator_constraint_name(report->evaluator, i));
-            between = "; ";
-        }
+    for (int i = 0; i < best->n_constraint && n < room; i++) {
+        const int n_scenario = cz_outcome_n_violated(best, i);
+        if (n_scenario == 0)
+            continue;
+        n += (size_t)snprintf(text + n, room - n, "%s%s", between,
+                              cz_evaluator_constraint_name(report->evaluator, i));
+        if (n_scenario > 1 && n < room)
+            n += (size_t)snprintf(text + n, room - n, " and %d more scenario%s", n_scenario - 1,
+                                  n_scenario > 2 ? "s" : "");
+        between = "; ";
+    }
     if (n < room)
         snprintf(text + n, room - n, ". The least violation that was found depends on:");
 }

@@ -205,13 +205,35 @@ static void a_search_without_success_lists_what_is_violated(void **state) {
     s.outcome.status = CZ_OUTCOME_INFEASIBLE;
     char *text = outcome_text(&s);
     assert_has(text, "NO FEASIBLE DESIGN FOUND after 214 evaluations");
-    assert_has(text, "interface force, 36   A1-B1   36         1500 kN   3483 kN   -132 %\n");
+    assert_has(text, "violated, worst scenario   where   scenario     limit     value   margin   "
+                     "scenarios\n");
+    assert_has(text, "interface force, 36        A1-B1   36         1500 kN   3483 kN   -132 %   "
+                     "        1\n");
     assert_lacks(text, "deceleration, 36");
     s.outcome.status = CZ_OUTCOME_INTERRUPTED;
     free(text);
     text = outcome_text(&s);
     assert_has(text, "INTERRUPTED");
     assert_has(text, "the best so far is NOT feasible");
+    free(text);
+}
+
+/* A check that fails in many scenarios is one line: the worst, and in how many. */
+static void a_violated_check_is_listed_once_in_its_worst_scenario(void **state) {
+    (void)state;
+    StandIn s;
+    stand_in_fill(&s);
+    s.outcome.status = CZ_OUTCOME_INFEASIBLE;
+    s.check[1].name = s.check[2].name = s.check[0].name;
+    s.constraint[1] = 1.5;
+    s.constraint[2] = 1.5;
+    char *text = outcome_text(&s);
+    const char *violated = strstr(text, "violated, worst scenario");
+    assert_non_null(violated);
+    assert_has(violated, "deceleration, 36");
+    assert_has(violated, "           3\n");
+    assert_lacks(violated, "interface force, 36");
+    assert_lacks(violated, "lift, 36");
     free(text);
 }
 
@@ -315,6 +337,7 @@ int main(void) {
         cmocka_unit_test(without_checks_nothing_is_judged),
         cmocka_unit_test(a_search_shows_before_and_after_and_the_new_values),
         cmocka_unit_test(a_search_without_success_lists_what_is_violated),
+        cmocka_unit_test(a_violated_check_is_listed_once_in_its_worst_scenario),
         cmocka_unit_test(digits_are_those_of_the_library),
         cmocka_unit_test(a_sweep_shows_the_largest_number_of_metrics),
         cmocka_unit_test(numbers_are_short_and_not_rounded_to_a_limit),

@@ -90,7 +90,7 @@ _crushzone() {
     if [[ $word == -* ]]; then
         COMPREPLY=($(compgen -W "$options" -- "$word"))
     elif [ "${COMP_WORDS[1]}" = help ]; then
-        COMPREPLY=($(compgen -W 'keys units checks verdicts profiles paths algorithms channels results events figures files exit-codes run check optimise sweep sample merge pareto challenge corridor dakota export explain verify bench serve report plot compare validate show fit new schema help version' -- "$word"))
+        COMPREPLY=($(compgen -W 'keys units checks verdicts profiles parts paths algorithms channels results events figures files exit-codes run check optimise sweep sample merge pareto challenge corridor dakota export explain verify bench serve report plot compare validate show fit new schema help version' -- "$word"))
     elif [ "${COMP_WORDS[1]}" != new ]; then
         COMPREPLY=($(compgen -f -- "$word"))
     else

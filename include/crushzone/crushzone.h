@@ -38,6 +38,7 @@
 #include "crushzone/model.h"
 #include "crushzone/optimise.h"
 #include "crushzone/pareto.h"
+#include "crushzone/parts.h"
 #include "crushzone/problem.h"
 #include "crushzone/report.h"
 #include "crushzone/simulate.h"

@@ -72,6 +72,16 @@ static int unknown_topic(const CzArguments *arguments, const char *topic,
     return cz_tell_error(arguments, &error);
 }
 
+/* Only `help parts` takes a file. */
+static int refuse_file(const CzArguments *arguments) {
+    CzError error;
+    cz_fail(&error, CZ_STATUS_INPUT,
+            "'help %.100s' takes no file" CZ_HELP
+            "crushzone help parts FILE lists the parts of a file",
+            arguments->operand[0]);
+    return cz_tell_error(arguments, &error);
+}
+
 int cz_command_help(const CzArguments *arguments) {
     const bool is_page = arguments->text[CZ_OPTION_MARKDOWN] != NULL;
     const char *name = arguments->n_operand > 0 ? arguments->operand[0] : NULL;
@@ -79,6 +89,11 @@ int cz_command_help(const CzArguments *arguments) {
     const CzCommand command = name != NULL ? cz_command_named(name, &nearest) : CZ_N_COMMAND;
     const int topic =
         name != NULL ? CZ_FIND_NAMED(name, CzHelpEntry, cz_topics, CZ_N_TOPIC, &nearest) : -1;
+    if (arguments->n_operand > 1 && topic != CZ_TOPIC_PARTS)
+        return refuse_file(arguments);
+    if (topic == CZ_TOPIC_PARTS)
+        return cz_help_write_parts(arguments,
+                                   arguments->n_operand > 1 ? arguments->operand[1] : NULL);
     if (name == NULL && arguments->text[CZ_OPTION_MAN] != NULL)
         cz_help_write_man();
     else if (name == NULL && arguments->text[CZ_OPTION_COMPLETION] != NULL)

@@ -2,6 +2,8 @@
 #ifndef CZ_CLI_HELP_H
 #define CZ_CLI_HELP_H
 
+#include "cli/arguments.h"
+
 typedef enum CzTopic {
 #define CZ_TOPIC(constant, name, doc) CZ_TOPIC_##constant,
 #include "cli/topics.def"
@@ -17,6 +19,10 @@ typedef struct CzHelpEntry {
 extern const CzHelpEntry cz_topics[CZ_N_TOPIC];
 
 void cz_help_write_topic(CzTopic topic);
+
+/* The parts of a file, or of all shipped catalogues when it is NULL, with their numbers. Reports a
+ * failure and returns its exit code, 0 without. */
+int cz_help_write_parts(const CzArguments *arguments, const char *file);
 
 /* Rules for the verdict over checks: the words in the order in which they are tried, up to one
  * without a name, and a remark. */

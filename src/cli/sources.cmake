@@ -23,6 +23,7 @@ set(CZ_SOURCES_cli
     command_study.c
     help.c
     help_pages.c
+    help_parts.c
     help_topics.c
     interrupt.c
     lines.c

@@ -9,6 +9,7 @@ set(CZ_SOURCES_problem
     changes.c
     channel.c
     find.c
+    inventory.c
     keys.c
     measured.c
     places.c

@@ -26,6 +26,13 @@ told_channels() { # every column of a run of full cars, with any car, interface,
 check "help channels lists every column of a run" told_channels
 told_profiles() { for file in "$SOURCE"/problems/profiles/*.yaml; do "$C" help profiles | grep -qw -- "$(basename "$file" .yaml)" || return 1; done; }
 check "help profiles lists every shipped profile" told_profiles
+told_parts() { # of every shipped catalogue, and with a file those that it uses
+    exits 0 "$C" help parts && cp out.txt parts.txt && for file in "$SOURCE"/problems/catalogue/*.yaml; do grep -q "^catalogue/$(basename "$file")$" parts.txt || return 1; done
+    grep -qE '^  anti-climber +anti_climber +1000 +300 +300$' parts.txt && grep -qE '^  metro-cab-car +vehicle .* 38.7 +23.6$' parts.txt &&
+        exits 0 "$C" help parts "$SOURCE/problems/metro-6-car.yaml" && says out.txt head-tube && ! grep -q wagon out.txt &&
+        exits 2 "$C" help parts nothing.yaml && exits 2 "$C" help keys "$SOURCE/problems/wall.yaml" && says err.txt "'help keys' takes no file"
+}
+check "help parts lists the shipped catalogues, or the parts of a file, with kN, mm, kJ" told_parts
 told_checks() { "$C" help checks >told.txt && for word in profile category limits design_rules metric max min scenarios "stroke used:" "override:" interfaces.peak_force_kN; do grep -q "^  $word " told.txt || return 1; done; }
 check "help checks lists the keys of the section and every design rule" told_checks
 manual() { exits 0 "$C" help --man && for word in run optimise '\\-\\-json' 'exit\\-codes' 130; do grep -q -- "$word" out.txt || return 1; done; }

@@ -17,7 +17,7 @@ include_arrows() {
                     n = split("base text tree problem model fit dynamics simulate evaluate optimise report serve cli", order, " ")
                     for (i = 1; i <= n; i++) { rank[order[i]] = i; public[order[i]] = order[i] }
                     public["status"] = public["names"] = "base"
-                    public["channel"] = "problem"
+                    public["channel"] = public["parts"] = "problem"
                     public["challenge"] = "optimise"
                     public["corridor"] = "optimise"
                     public["executor"] = public["benchmark"] = public["sample"] = public["sweep"] = public["explain"] = public["verify"] = "evaluate"

@@ -178,7 +178,8 @@ int cz_case_check_of(const CzCaseChecks *checks, const CzEvaluation *evaluation,
 }
 
 char *cz_case_failure(const CzRunSummary *run, const char *scenario) {
-    const char *reason = run->failure[0] != '\0' ? run->failure : cz_failure_of(run);
+    char reason[400];
+    cz_failure_text(run, sizeof reason, reason);
     const size_t room = strlen(reason) + strlen(scenario) + 3;
     char *text = malloc(room);
     if (text != NULL)

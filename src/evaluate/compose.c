@@ -15,6 +15,14 @@ const char *cz_failure_of(const CzRunSummary *run) {
                                              : NULL;
 }
 
+const char *cz_failure_text(const CzRunSummary *run, size_t room, char *text) {
+    if (run->failure[0] != '\0')
+        snprintf(text, room, "%s", run->failure);
+    else
+        snprintf(text, room, "%s: %s", cz_failure_of(run), run->awaited);
+    return text;
+}
+
 CzSubject cz_subject_of(const CzEvaluator *evaluator, const CzVehicle *vehicles, int scenario,
                         const CzRunSummary *run) {
     const CzInput *input = cz_problem_input(evaluator->problem);
@@ -264,9 +272,10 @@ static void note_failure(const CzEvaluator *evaluator, const CzRunSummary *const
         if (run[s] != NULL && cz_failure_of(run[s]) != NULL && is_worse)
             first = run[s];
     }
+    char reason[400];
     if (first != NULL)
-        snprintf(evaluation->failure, sizeof evaluation->failure, "%s: %s", first->scenario,
-                 first->failure[0] != '\0' ? first->failure : cz_failure_of(first));
+        snprintf(evaluation->failure, sizeof evaluation->failure, "%.100s: %s", first->scenario,
+                 cz_failure_text(first, sizeof reason, reason));
 }
 
 CzStatus cz_compose(const CzEvaluator *evaluator, const CzVehicle *vehicles,

@@ -6,6 +6,9 @@
 
 /* Reason why a scenario has no values; NULL when it has. `run` NULL: it was left out. */
 const char *cz_failure_of(const CzRunSummary *run);
+/* The same in full, for a run that failed or is incomplete: its own reason, or what the end
+ * criterion still waits for. Returns text. */
+const char *cz_failure_text(const CzRunSummary *run, size_t room, char *text);
 
 /* Source of metrics: a scenario with its run, or the design alone for CZ_NO_SCENARIO and no run. */
 CzSubject cz_subject_of(const CzEvaluator *evaluator, const CzVehicle *vehicles, int scenario,

@@ -15,6 +15,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "evaluate/compose.h"
 #include "evaluate/evaluator_parts.h"
 
 #include <math.h>
@@ -259,12 +260,9 @@ static void write_failure(CzVerification *verification, const char *method,
         const CzRunSummary *run = cz_run_summary(evaluation->run[i]);
         if (run->status == CZ_OK && run->ended != CZ_ENDED_INCOMPLETE)
             continue;
-        const char *why =
-            run->failure[0] != '\0'
-                ? run->failure
-                : "the run did not meet its end criterion within simulation.longest_s";
-        snprintf(verification->failure, sizeof verification->failure, "%s, scenario %.60s: %.220s",
-                 method, run->scenario, why);
+        char why[220];
+        snprintf(verification->failure, sizeof verification->failure, "%s, scenario %.60s: %s",
+                 method, run->scenario, cz_failure_text(run, sizeof why, why));
         return;
     }
 }

@@ -1,6 +1,6 @@
 /* End of a run: by its end criterion, after its duration, or because it failed.
  *
- * End criterion: no neighbouring cars approach or can meet again faster than CLOSING_SPEED, no
+ * End criterion: no neighbouring cars approach or can meet again faster than CZ_CLOSING_SPEED, no
  * interface that can open carries a force, none stores more than CZ_STORED_SHARE of the initial
  * energy, no plastic element crushes, and every wheel is on the rail, all for one body pitch
  * period. A brief run also ends when nothing has crushed for that long, no cars can meet again at
@@ -13,7 +13,6 @@
 
 enum { LOOKS_BETWEEN_ENERGY_CHECKS = 64 }; /* (ours) */
 
-#define CLOSING_SPEED 0.1 /* [m/s] */
 #define MEETING_SHARE 0.4 /* a sixth of the first impact's energy (ours) */
 #define ROUNDING 1e-9     /* relative difference of two equal means */
 #define CRUSHING 1e-6     /* growth of the plastic strokes that counts as crushing [m] (ours) */
@@ -281,7 +280,7 @@ static bool can_meet_again(const CzBatch *batch, int design) {
         for (size_t k = 0; k < sizeof forces / sizeof forces[0]; ++k)
             together |= cz_memory(batch, forces[k], lane) > 0.0;
         const double behind = cz_velocity(batch, CZ_DOF(body.x), lane);
-        if (!together && behind - lowest_speed(batch, car + 1, design) > CLOSING_SPEED)
+        if (!together && behind - lowest_speed(batch, car + 1, design) > CZ_CLOSING_SPEED)
             return true;
     }
     return false;
@@ -290,7 +289,7 @@ static bool can_meet_again(const CzBatch *batch, int design) {
 /* The condition that the end criterion still waits for; NULL when it is met. */
 static const char *awaited(const CzBatch *batch, int design, bool off, bool crushes,
                            const CzLoadLeft *left) {
-    const bool closes_in = cz_largest_closing_speed(batch, design) > CLOSING_SPEED;
+    const bool closes_in = cz_largest_closing_speed(batch, design) > CZ_CLOSING_SPEED;
     return off                             ? "a wheel is off its rail"
            : crushes                       ? "a device still crushes or slides"
            : left->force                   ? "cars that can part still carry a contact force"

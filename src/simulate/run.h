@@ -123,6 +123,9 @@ static inline double cz_closing_speed(const CzBatch *batch, int interface, int d
            cz_velocity(batch, CZ_DOF(body.x), cz_lane(batch, interface + 1, design));
 }
 
+/* Speed below which neighbouring cars have ceased to close in, for the end criterion [m/s]. */
+#define CZ_CLOSING_SPEED 0.1
+
 /* The largest of them, at least 0. */
 double cz_largest_closing_speed(const CzBatch *batch, int design);
 

@@ -138,6 +138,30 @@ static CzStatus fill_critical_forces(const CzBatch *batch, int design, CzRun *ru
     return CZ_OK;
 }
 
+/* What an incomplete run still waits for, and the interface that closes fastest. */
+static CzStatus fill_awaited(const CzBatch *batch, int design, CzRun *run) {
+    enum { ROOM = 160 };
+    const CzProgressOfDesign *progress = &batch->design[design];
+    const char *awaited = progress->awaited != NULL
+                              ? progress->awaited
+                              : "the end criterion must be met for one body pitch period";
+    int fastest = 0;
+    run->summary.awaited = awaited;
+    for (int i = 1; i + 1 < batch->n_car; ++i)
+        if (cz_closing_speed(batch, i, design) > cz_closing_speed(batch, fastest, design))
+            fastest = i;
+    const double speed = cz_closing_speed(batch, fastest, design);
+    if (progress->ended != CZ_ENDED_INCOMPLETE || !(speed > CZ_CLOSING_SPEED))
+        return CZ_OK;
+    char *text = cz_arena_allocate(&run->arena, 1, ROOM);
+    if (text == NULL)
+        return CZ_STATUS_NO_MEMORY;
+    snprintf(text, ROOM, "%s; %s closes at %.2g m/s", awaited,
+             progress->model->interface_name[fastest], speed);
+    run->summary.awaited = text;
+    return CZ_OK;
+}
+
 CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
     const CzModel *model = batch->design[design].model;
     const CzProgressOfDesign *progress = &batch->design[design];
@@ -155,9 +179,7 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
     summary->status = failed ? CZ_STATUS_RUN_FAILED : CZ_OK;
     memcpy(summary->failure, progress->failure, sizeof summary->failure);
     summary->ended = progress->ended;
-    summary->awaited = progress->awaited != NULL
-                           ? progress->awaited
-                           : "the end criterion must be met for one body pitch period";
+    CZ_TRY(fill_awaited(batch, design, run));
     summary->simulated = batch->time;
     summary->integrator = batch->integrator;
     summary->time_step = batch->step;

@@ -16,7 +16,7 @@ _crushzone() {
     --depfile) COMPREPLY=($(compgen -f -- "$word")); return ;;
     --problem) COMPREPLY=($(compgen -f -- "$word")); return ;;
     --sqlite) COMPREPLY=($(compgen -f -- "$word")); return ;;
-    --vary) return ;;
+    --vary) words='PATH=A:B:N A,B,C' ;;
     --minimise) return ;;
     --points | -n) return ;;
     --metric) return ;;

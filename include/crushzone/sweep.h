@@ -14,17 +14,20 @@
 
 CZ_BEGIN_DECLARATIONS
 
-enum { CZ_MOST_AXES = 2, CZ_MOST_SWEPT_METRICS = 8 };
+enum { CZ_MOST_AXES = 2, CZ_MOST_SWEPT_METRICS = 8, CZ_MOST_LISTED = 64 };
 
-/* A path with its values: n evenly spaced ones from `from` to `to`, in the unit of the path's key.
- */
+/* A path with its values, in the unit of the path's key: n evenly spaced ones from `from` to `to`,
+ * or a list in rising order. */
 typedef struct CzSweepAxis {
     char path[CZ_PATH_ROOM];
-    double from, to;
-    int n; /* at least 2 */
+    double from, to; /* of a list its first and last value */
+    int n;           /* at least 2 */
+    bool is_list;
+    double listed[CZ_MOST_LISTED]; /* of a list (n) */
 } CzSweepAxis;
 
-/* Reads a text such as "trains.A.speed_km_h=5:40:8". Status: CZ_OK, CZ_STATUS_INPUT. */
+/* Reads a text such as "trains.A.speed_km_h=5:40:8" or "trains.A.speed_km_h=8,15,25", whose values
+ * it sorts. Status: CZ_OK, CZ_STATUS_INPUT. */
 CZ_MUST_CHECK CZ_API CzStatus cz_sweep_axis_parse(const char *text, CzSweepAxis *axis,
                                                   CzError *error);
 
@@ -57,6 +60,15 @@ typedef struct CzSweepPoint {
     char message[512];                                       /* why it is invalid or failed */
 } CzSweepPoint;
 
+/* A scenario that a varied value does not reach, because the scenario sets it itself. Texts are
+ * borrowed from the sweep's problem. */
+typedef struct CzUnreached {
+    int axis;
+    const char *scenario;
+    const char *by; /* key of the scenario that sets it, such as "speed_km_h"; "trains" where it
+                       does not run the train */
+} CzUnreached;
+
 /* Open result, owns its memory. */
 typedef struct CzSweep {
     int n_axis;
@@ -72,7 +84,9 @@ typedef struct CzSweep {
     int worst; /* a point whose run failed, else one that fails, else the one with the smallest
                   margin; -1 when none is done */
     bool is_interrupted;
-    CzProblem *problem; /* as written, for titles and warnings */
+    int n_unreached;
+    CzUnreached *unreached; /* axis by axis, scenarios in the order of the file (n_unreached) */
+    CzProblem *problem;     /* as written, for titles and warnings */
     double wall_s;
 } CzSweep;
 

@@ -36,6 +36,7 @@ set(CZ_SOURCES_evaluate
     study.c
     sweep.c
     sweep_axis.c
+    sweep_reach.c
     tasks.c
     variant.c
     variations.c

@@ -15,6 +15,7 @@
 #include "base/number.h"
 #include "base/text.h"
 #include "evaluate/compose.h"
+#include "evaluate/sweep_reach.h"
 #include "evaluate/tasks.h"
 #include "text/units.h"
 
@@ -211,7 +212,8 @@ static CzStatus prepare(Sweeping *sweeping, CzError *error) {
     sweep->n_shard = options->n_shard;
     CZ_TRY(cz_tasks_cut(sweep->n_point, "points", options->shard, options->n_shard, &sweep->begin,
                         &sweep->end, error));
-    return read_problem(sweeping, NULL, &sweep->problem, error);
+    CZ_TRY(read_problem(sweeping, NULL, &sweep->problem, error));
+    return cz_sweep_find_unreached(sweep, options->scenario, error);
 }
 
 static bool is_stopped(const CzSweepOptions *options) {
@@ -409,6 +411,7 @@ void cz_sweep_free(CzSweep *sweep) {
     if (sweep == NULL)
         return;
     cz_problem_free(sweep->problem);
+    free(sweep->unreached);
     free(sweep->point);
     free(sweep);
 }

@@ -133,6 +133,12 @@ CZ_MUST_CHECK CzStatus cz_problem_find_changed(const CzProblem *problem, int sce
                                                const char *path, CzTargets *targets,
                                                CzError *error);
 
+/* The key by which a scenario sets all numbers of some targets itself, such as "speed_km_h", so
+ * that their values elsewhere have no effect in it: a key of its own, "changes", or "trains" where
+ * they belong to a train that it does not run. NULL when one of them has an effect. Borrowed. */
+const char *cz_problem_replaced_by(const CzProblem *problem, int scenario,
+                                   const CzTargets *targets);
+
 /* The problem with the values that a scenario changes: the problem itself where it changes none.
  * Borrowed. */
 const CzProblem *cz_problem_in_scenario(const CzProblem *problem, int scenario);

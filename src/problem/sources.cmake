@@ -18,6 +18,7 @@ set(CZ_SOURCES_problem
     read.c
     reading.c
     reduce_curve.c
+    replaced.c
     rule.c
     rules.c
     rules_design.c

@@ -150,6 +150,10 @@ CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error)
     if (sweep->is_interrupted)
         cz_markup_write(&markup,
                         "<p class='fail'>The sweep was interrupted: points are missing.</p>");
+    for (int i = 0; i < sweep->n_unreached;) {
+        i += cz_sweep_unreached_sentence(sweep, i, title);
+        cz_markup_write(&markup, "<p><strong>Warning</strong>: %s.</p>", title);
+    }
     if (cz_sweep_is_beyond(sweep))
         cz_markup_write(&markup, "<p class='fail'>" CZ_SWEEP_BEYOND "</p>");
     cz_markup_write(&markup, "<section id='figures'>\n<h2>%s</h2>\n<div class='figures'>",

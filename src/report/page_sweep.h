@@ -31,6 +31,10 @@ typedef struct CzPointLook {
 } CzPointLook;
 CzPointLook cz_point_look(const CzSweepPoint *point);
 
+/* Sentence, without its full stop, on the scenarios that a value does not reach, from the index-th
+ * on; returns how many it names or counts. */
+int cz_sweep_unreached_sentence(const CzSweep *sweep, int index, char text[CZ_SENTENCE_ROOM]);
+
 /* The table of all points. */
 void cz_sweep_begin_points(CzReportTable *table, const CzSweep *sweep, bool on_page);
 

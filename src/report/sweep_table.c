@@ -63,12 +63,43 @@ void cz_sweep_begin_points(CzReportTable *table, const CzSweep *sweep, bool on_p
         put_point(table, sweep, &sweep->point[i]);
 }
 
+int cz_sweep_unreached_sentence(const CzSweep *sweep, int index, char text[CZ_SENTENCE_ROOM]) {
+    enum { MOST_NAMED = 8 };
+    const CzUnreached *first = &sweep->unreached[index];
+    int n = 1, at;
+    while (index + n < sweep->n_unreached && first[n].axis == first->axis &&
+           strcmp(first[n].by, first->by) == 0)
+        n++;
+    at = snprintf(text, CZ_SENTENCE_ROOM, "%s does not reach scenario%s ",
+                  sweep->axis[first->axis].path, n > 1 ? "s" : "");
+    for (int k = 0; k < n && k < MOST_NAMED; k++)
+        at += snprintf(text + at, (size_t)(CZ_SENTENCE_ROOM - at), "%s%.48s", k > 0 ? ", " : "",
+                       first[k].scenario);
+    if (n > MOST_NAMED)
+        at += snprintf(text + at, (size_t)(CZ_SENTENCE_ROOM - at), " and %d more", n - MOST_NAMED);
+    snprintf(text + at, (size_t)(CZ_SENTENCE_ROOM - at), ", which set%s %s %s", n > 1 ? "" : "s",
+             first->by, n > 1 ? "themselves" : "itself");
+    return n;
+}
+
+/* The values of an axis: from the first to the last, or the list. */
+static void write_values(const CzSweepAxis *axis, CzTerminal *terminal) {
+    char from[CZ_FIGURE_ROOM], to[CZ_FIGURE_ROOM];
+    if (!axis->is_list)
+        fprintf(terminal->stream, "%s to %s", cz_figure_digits(from, 6, axis->from),
+                cz_figure_digits(to, 6, axis->to));
+    for (int i = 0; i < axis->n && axis->is_list; i++)
+        fprintf(terminal->stream, "%s%s", i > 0 ? ", " : "",
+                cz_figure_digits(from, 6, axis->listed[i]));
+}
+
 /* The map: a row per value of the first path, a sign per value of the second. */
 static void write_map(const CzSweep *sweep, CzTerminal *terminal) {
     const CzSweepAxis *down = &sweep->axis[0], *across = &sweep->axis[1];
-    char from[CZ_FIGURE_ROOM], to[CZ_FIGURE_ROOM];
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "across: %s, %s to %s\n", across->path,
-                    cz_figure_digits(from, 6, across->from), cz_figure_digits(to, 6, across->to));
+    char from[CZ_FIGURE_ROOM];
+    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "across: %s, ", across->path);
+    write_values(across, terminal);
+    fputc('\n', terminal->stream);
     cz_terminal_say(terminal, CZ_STYLE_PLAIN, "down:   %s\n\n", down->path);
     for (int row = 0; row < down->n; row++) {
         fprintf(terminal->stream, "%12s  ",
@@ -133,6 +164,12 @@ void cz_sweep_write_table(const CzReport *report, CzTerminal *terminal) {
     if (sweep->n_shard > 1)
         cz_terminal_say(terminal, CZ_STYLE_PLAIN, "Shard %d of %d: points %d to %d of %d.\n",
                         sweep->shard, sweep->n_shard, sweep->begin + 1, sweep->end, sweep->n_point);
+    char sentence[CZ_SENTENCE_ROOM];
+    for (int i = 0; i < sweep->n_unreached;) {
+        i += cz_sweep_unreached_sentence(sweep, i, sentence);
+        cz_terminal_say(terminal, CZ_STYLE_CAREFUL, "warning");
+        cz_terminal_say(terminal, CZ_STYLE_PLAIN, ": %s.\n", sentence);
+    }
     fputc('\n', terminal->stream);
     if (sweep->n_axis == 1) {
         cz_sweep_begin_points(&table, sweep, false);

@@ -14,6 +14,16 @@ check "without a metric one path shows stroke, force, energy and wheel lift" usu
 check "one path gets a line per value and its worst is named" one
 two() { exits 0 "$C" sweep "$cars" --vary trains.A.speed_km_h=10:50:2 --vary trains.B.height_offset_mm=-40:40:3 --check override && says out.txt '10  + + +' && says out.txt '50  X X X'; }
 check "two paths get a map" two
+listed() { # in rising order, in one axis and in two, with the values in every output
+    exits 0 "$C" sweep "$cars" --vary trains.A.speed_km_h=25,8,15 -o listed && json listed/sweep.json axes.0.values.1 15.0 && [ "$(cut -d, -f1 listed/sweep.csv | tail -3 | tr '\n' ' ')" = '8 15 25 ' ] &&
+        exits 0 "$C" sweep "$cars" --vary trains.A.speed_km_h=8,25 --vary trains.B.height_offset_mm=-40,0,40 && says out.txt 'across: trains.B.height_offset_mm, -40, 0, 40'
+}
+check "--vary takes lists of values" listed
+unreached() {
+    metro=$SOURCE/problems/metro-6-car.yaml
+    exits 0 "$C" sweep "$metro" --vary trains.A.speed_km_h=7,8 --scenario 8-km-h -o unreached && says out.txt 'warning: trains.A.speed_km_h does not reach scenario 8-km-h, which sets speed_km_h itself.' && json unreached/sweep.json unreached.0.by speed_km_h && says unreached/report.html 'does not reach scenario 8-km-h'
+}
+check "a scenario that sets the varied value itself is named" unreached
 document() { exits 0 "$C" sweep "$cars" --vary trains.A.speed_km_h=10:50:2 --json && json out.txt format crushzone.sweep && json out.txt points.1.verdict fail && json out.txt worst 1; }
 check "--json prints one document" document
 strict() { exits 1 "$C" sweep "$cars" --vary trains.A.speed_km_h=10:50:2 --strict; }

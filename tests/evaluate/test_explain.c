@@ -64,7 +64,8 @@ static bool holds_with_link_height(double height) {
     CzProblemOptions problem_options = cz_problem_options_default();
     problem_options.set = &setting;
     problem_options.n_set = 1;
-    const CzSweepAxis axis = {"parts.bogie.link.height_mm", height, height, 2};
+    const CzSweepAxis axis = {
+        .path = "parts.bogie.link.height_mm", .from = height, .to = height, .n = 2};
     CzSweepOptions options = cz_sweep_options_default();
     options.n_axis = 1;
     options.axis = &axis;

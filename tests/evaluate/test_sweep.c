@@ -5,8 +5,9 @@
 
 static const char file[] = "problems/two-cars-25kmh.yaml";
 static const char *const metric[] = {"interfaces.peak_force_kN", "vehicles.max_pitch_mrad"};
-static const CzSweepAxis speed = {"trains.A.speed_km_h", 10, 40, 4};
-static const CzSweepAxis height = {"trains.B.height_offset_mm", -40, 40, 3};
+static const CzSweepAxis speed = {.path = "trains.A.speed_km_h", .from = 10, .to = 40, .n = 4};
+static const CzSweepAxis height = {
+    .path = "trains.B.height_offset_mm", .from = -40, .to = 40, .n = 3};
 
 static CzSweepOptions options_of(const CzSweepAxis *axis, int n_axis) {
     CzSweepOptions options = cz_sweep_options_default();
@@ -71,7 +72,7 @@ static void a_point_is_the_problem_with_that_value(void **state) {
 static void the_acceleration_of_a_link_is_its_force_over_the_bogie(void **state) {
     (void)state;
     static const char *const link[] = {"vehicles.link_force_kN", "vehicles.link_acceleration_g"};
-    const CzSweepAxis fast = {"trains.A.speed_km_h", 25, 40, 2};
+    const CzSweepAxis fast = {.path = "trains.A.speed_km_h", .from = 25, .to = 40, .n = 2};
     CzSweepOptions options = options_of(&fast, 1);
     options.metric = link;
     CzSweep *sweep = sweep_with(&options);
@@ -125,7 +126,7 @@ static void only_the_checks_asked_for_judge(void **state) {
 /* Train B comes at 25 km/h: below -25 km/h the trains never meet, which the reader refuses. */
 static void values_that_the_reader_refuses_are_invalid_points(void **state) {
     (void)state;
-    const CzSweepAxis axis = {"trains.A.speed_km_h", -40, 10, 2};
+    const CzSweepAxis axis = {.path = "trains.A.speed_km_h", .from = -40, .to = 10, .n = 2};
     const CzSweepOptions options = options_of(&axis, 1);
     CzSweep *sweep = sweep_with(&options);
     assert_int_equal(sweep->point[0].state, CZ_SWEEP_INVALID);
@@ -138,7 +139,7 @@ static void values_that_the_reader_refuses_are_invalid_points(void **state) {
 
 static void a_run_that_is_cut_short_gives_no_point(void **state) {
     (void)state;
-    const CzSweepAxis axis = {"simulation.longest_s", 0.05, 6, 2};
+    const CzSweepAxis axis = {.path = "simulation.longest_s", .from = 0.05, .to = 6, .n = 2};
     const CzSweepOptions options = options_of(&axis, 1);
     CzSweep *sweep = sweep_with(&options);
     assert_int_equal(sweep->point[0].state, CZ_SWEEP_RUN_FAILED);
@@ -152,7 +153,7 @@ static void a_problem_that_is_invalid_at_every_point_is_refused(void **state) {
     (void)state;
     CzSweep *sweep = NULL;
     CzError error = {0};
-    const CzSweepAxis axis = {"trains.C.speed_km_h", 10, 40, 4};
+    const CzSweepAxis axis = {.path = "trains.C.speed_km_h", .from = 10, .to = 40, .n = 4};
     CzSweepOptions options = options_of(&axis, 1);
     assert_int_equal(cz_sweep(file, NULL, &options, &sweep, &error), CZ_STATUS_INPUT);
     static const char *const wrong[] = {"vehicles.lift", "vehicles.max_pitch_mrad"};
@@ -186,10 +187,82 @@ static void axes_are_read_from_text(void **state) {
     assert_near(axis.to, 100, 0, 0);
     assert_int_equal(axis.n, 5);
     assert_near(cz_sweep_axis_value(&axis, 4), 100, 0, 0);
-    static const char *const wrong[] = {"a=1:2",   "a=1:2:1",   "=1:2:3",   "1:2:3",
-                                        "a=x:2:3", "a=1:2:501", "a=1:2:3:4"};
+    static const char *const wrong[] = {"a=1:2",     "a=1:2:1",   "=1:2:3",   "1:2:3", "a=x:2:3",
+                                        "a=1:2:501", "a=1:2:3:4", "a=1",      "a=1,",  "a=1,,2",
+                                        "a=1,x",     "a=1,2,1",   "a=1,2:3:4"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
         assert_int_equal(cz_sweep_axis_parse(wrong[i], &axis, &error), CZ_STATUS_INPUT);
+    assert_int_equal(cz_sweep_axis_parse("a.b_kN=25,8,-1.5e1", &axis, &error), CZ_OK);
+    assert_int_equal(axis.n, 3);
+    assert_near(cz_sweep_axis_value(&axis, 0), -15, 0, 0);
+    assert_near(cz_sweep_axis_value(&axis, 1), 8, 0, 0);
+    assert_near(cz_sweep_axis_value(&axis, 2), 25, 0, 0);
+}
+
+static void a_list_has_the_points_of_its_values(void **state) {
+    (void)state;
+    CzSweepAxis axis[2];
+    CzError error = {0};
+    assert_int_equal(cz_sweep_axis_parse("trains.A.speed_km_h=20,10", &axis[0], &error), CZ_OK);
+    assert_int_equal(cz_sweep_axis_parse("trains.B.height_offset_mm=0,30", &axis[1], &error),
+                     CZ_OK);
+    const CzSweepOptions options = options_of(axis, 2);
+    CzSweep *sweep = sweep_with(&options);
+    assert_int_equal(sweep->n_point, 4);
+    assert_near(sweep->point[0].value[0], 10, 0, 0);
+    assert_near(sweep->point[1].value[1], 30, 0, 0);
+    assert_near(sweep->point[2].metric[0], peak_force_with("trains.A.speed_km_h=20") / 1e3, 0, 0);
+    cz_sweep_free(sweep);
+}
+
+/* Two trains with a third beside them, and scenarios that set values themselves. */
+static const char scenarios[] =
+    "extends: two-cars-25kmh.yaml\n"
+    "trains:\n"
+    "  - {name: C, speed_km_h: -20, brake: {ratio: 0, axle_share: 0}, vehicles: [{name: C1, use: "
+    "paper-car, reversed: true}]}\n"
+    "scenarios:\n"
+    "  - {name: as-written}\n"
+    "  - {name: own-speed, speed_km_h: 12}\n"
+    "  - {name: partner, partner_speed_km_h: -12, height_offset_mm: 10, friction: 0.2}\n"
+    "  - {name: other, trains: [A, C]}\n"
+    "  - {name: changed, changes: [{path: trains.B.vehicles.B1.mass_t, value: 40}]}\n"
+    "  - {name: scaled, changes: [{path: trains.B.vehicles.B1.mass_t, factor: 1.1}]}\n";
+
+/* The scenarios that a sweep of a path does not reach, such as "own-speed:speed_km_h ". */
+static void finds_unreached(const char *path, double from, double to, const char *expected) {
+    CzSweepAxis axis = {.from = from, .to = to, .n = 2};
+    CzProblemOptions problem_options = cz_problem_options_default();
+    CzSweepOptions options = options_of(&axis, 1);
+    CzSweep *sweep = NULL;
+    CzError error = {0};
+    char text[8192] = "", found[512] = "";
+    snprintf(axis.path, sizeof axis.path, "%s", path);
+    snprintf(text, sizeof text, "%s", scenarios);
+    options.text = text;
+    options.n_text = strlen(text);
+    problem_options.share_folder = "problems";
+    const CzStatus status = cz_sweep(file, &problem_options, &options, &sweep, &error);
+    if (status != CZ_OK)
+        print_error("%s\n", error.message);
+    assert_int_equal(status, CZ_OK);
+    for (int i = 0; i < sweep->n_unreached; i++) {
+        const size_t n = strlen(found);
+        snprintf(found + n, sizeof found - n, "%s:%s ", sweep->unreached[i].scenario,
+                 sweep->unreached[i].by);
+    }
+    assert_string_equal(found, expected);
+    cz_sweep_free(sweep);
+}
+
+static void a_scenario_that_sets_the_value_itself_is_named(void **state) {
+    (void)state;
+    finds_unreached("trains.A.speed_km_h", 10, 20, "own-speed:speed_km_h ");
+    finds_unreached("trains.B.speed_km_h", -10, -20, "partner:partner_speed_km_h other:trains ");
+    finds_unreached("trains.B.height_offset_mm", 0, 20, "partner:height_offset_mm other:trains ");
+    finds_unreached("simulation.adhesion.friction", 0.1, 0.3, "partner:friction ");
+    finds_unreached("trains.B.vehicles.B1.mass_t", 30, 34, "other:trains changed:changes ");
+    finds_unreached("parts.anti-climber.gap_mm", 310, 320, "");
 }
 
 int main(void) {
@@ -203,6 +276,8 @@ int main(void) {
         cmocka_unit_test(a_problem_that_is_invalid_at_every_point_is_refused),
         cmocka_unit_test(an_interrupted_sweep_has_points_that_were_not_run),
         cmocka_unit_test(axes_are_read_from_text),
+        cmocka_unit_test(a_list_has_the_points_of_its_values),
+        cmocka_unit_test(a_scenario_that_sets_the_value_itself_is_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

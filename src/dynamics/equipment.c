@@ -36,6 +36,7 @@ CzInterfaceEquipment cz_interface_equipment(const CzLanes *lanes, size_t lane) {
         of.side[side].swing_stop = stop < CZ_MISSING ? stop : INFINITY;
         of.side[side].strut_length = coupler->side[side].strut_length[i];
     }
+    of.has_ribs = of.side[0].has_anti_climber && of.side[1].has_anti_climber;
     return of;
 }
 

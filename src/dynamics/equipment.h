@@ -8,12 +8,13 @@
 /* Equipment of the interface whose rear car is in a lane; side 0 is its front end, 1 the rear end
  * of the car ahead. */
 typedef struct CzInterfaceEquipment {
-    bool has_couplers;     /* two that meet, or one that meets a fixed body */
+    bool has_couplers;     /* two that meet, or one that strikes a bare end */
     bool is_coupled;       /* they carry tension, or draw gears do */
     bool couplers_on_ends; /* one of them at least is fixed to an end mass */
     bool has_side_buffers; /* likewise */
     bool has_superstructures, has_draw_gears;
     bool can_climb;  /* the overlap of its faces is limited */
+    bool has_ribs;   /* two anti-climbers meet */
     double friction; /* of the faces [-] */
     struct {
         bool has_coupler, has_anti_climber, has_side_buffers; /* on this side */

@@ -63,8 +63,9 @@ static void press_faces(CzBlock *d, const Contact *restrict contact, const doubl
     CZ_LANES (i) {
         const CzFaceLaw law = {rows->damping[i], rows->overlap[i], rows->rib_pitch[i]};
         const double rate = contact->rate[i];
-        const CzFaceResponse response = cz_face(&law, chain[i], contact->closure[i], rate,
-                                                contact->slip_vertical[i], lost_before[i]);
+        const double offset = contact->slip_vertical[i] + rows->eccentricity[i];
+        const CzFaceResponse response =
+            cz_face(&law, chain[i], contact->closure[i], rate, offset, lost_before[i]);
         lost_next[i] = response.lost;
         remaining[i] = response.remaining;
         normal[i] = response.normal;

@@ -1,7 +1,7 @@
 /* Normal force of two faces that a series chain presses together, with damping while they close;
  * both fall with a small remaining overlap.
  *
- *   o    = overlap - |slip|                            remaining overlap
+ *   o    = overlap - |offset|                          remaining overlap
  *   lost = max(lost before, 1 - clamp(o / p, 0, 1))    over one rib pitch p; 0 once they part
  *   N    = (1 - lost) (F + min(c max(x', 0) fade(x), F))
  *
@@ -28,12 +28,12 @@ typedef struct {
 } CzFaceResponse;
 
 static inline CzFaceResponse cz_face(const CzFaceLaw *law, double chain, double closure,
-                                     double rate, double slip, double lost) {
+                                     double rate, double offset, double lost) {
     const double wanted =
         law->damping * cz_positive_part(rate) * cz_fade_in(closure, CZ_FADE_LENGTH);
     CzFaceResponse response;
     response.damped = cz_smaller(wanted, chain);
-    response.remaining = law->overlap - fabs(slip);
+    response.remaining = law->overlap - fabs(offset);
     const double released = 1.0 - cz_clamp(response.remaining / law->pitch, 0.0, 1.0);
     const double most = cz_larger(lost, released);
     response.held = 1.0 - most;

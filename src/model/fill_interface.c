@@ -3,19 +3,30 @@
  *   distance of a pair of parts = distance of the foremost planes + gap_A + gap_B
  *
  * Inner interfaces: coupled couplers touch face to face; without them the foremost planes touch.
- * Colliding interface: the nearest pair of parts of one kind touches. A fixed partner without a
- * part of its own meets the other's with its foremost plane, at the other's height.
+ * Colliding interface: the nearest pair of parts touches. A part without a counterpart strikes the
+ * bare end structure of the other end, at its own height (problem/meeting.h): that side of its
+ * element is rigid, and on the end mass where there is one.
  */
 #include "model/fill.h"
 
 #include "base/error.h"
+#include "problem/meeting.h"
 
 #define BARE_COMPLIANCE 1e-9      /* of two ends without anti-climbers [m/N] (ours) */
 #define SMALLEST_COMPLIANCE 1e-14 /* where a crush zone in series deflects instead [m/N] (ours) */
 #define OVERLAP_TOLERANCE 1e-9    /* of rounding [m] */
+#define BARE_STIFFNESS                                                                             \
+    2e7 /* vertical, of bare ends that stick: that of anti-climbers [N/m] (ours) */
 
 /* Kinds of parts by which two ends meet; draw gears carry tension only and never touch. */
-typedef enum Kind { COUPLER, FACE, SIDE_BUFFERS, SUPERSTRUCTURE, DRAW_GEAR, N_KIND } Kind;
+typedef enum Kind {
+    COUPLER = CZ_PART_COUPLER,
+    FACE = CZ_PART_FACE,
+    SIDE_BUFFERS = CZ_PART_SIDE_BUFFERS,
+    SUPERSTRUCTURE = CZ_N_PART,
+    DRAW_GEAR,
+    N_KIND
+} Kind;
 enum { N_TOUCHING = DRAW_GEAR };
 
 /* A part of an end. */
@@ -23,7 +34,7 @@ typedef struct Part {
     bool is_there;
     double gap;    /* behind the foremost plane [m] */
     double height; /* above rail [m]; NaN: as the other side's */
-} Part;
+} Part; /* without a part of its kind: the bare end structure, which the other side's strikes */
 
 /* One side of the interface. */
 typedef struct Side {
@@ -53,23 +64,27 @@ static CzPartName part_name(const Pair *pair, int side, const char *what) {
     return (CzPartName){pair->side[side].car, pair->side[side].which, pair->lane, what};
 }
 
+/* The bare end structure where there is no part of a kind. */
+static Part bare_part(const CzEnd *end) {
+    return end->given ? (Part){false, end->face_gap, end->crush_height} : (Part){.height = NAN};
+}
+
 static void list_parts(Side *side) {
     const CzEnd *end = side->end;
-    const CzAntiClimber *device = &end->anti_climber;
-    for (int kind = 0; kind < N_KIND; kind++)
-        side->part[kind] = (Part){.height = NAN};
-    if (!end->given)
-        return;
-    side->part[FACE] = device->given ? (Part){true, device->gap, device->height}
-                                     : (Part){false, end->face_gap, end->crush_height};
-    if (end->coupler.given)
-        side->part[COUPLER] = (Part){true, end->coupler.gap, end->coupler.height};
-    if (end->side_buffers.given)
-        side->part[SIDE_BUFFERS] = (Part){true, end->side_buffers.gap, end->side_buffers.height};
-    if (end->superstructure.given)
+    const double gap[] = {[COUPLER] = end->coupler.gap,
+                          [FACE] = end->anti_climber.gap,
+                          [SIDE_BUFFERS] = end->side_buffers.gap};
+    const double height[] = {[COUPLER] = end->coupler.height,
+                             [FACE] = end->anti_climber.height,
+                             [SIDE_BUFFERS] = end->side_buffers.height};
+    for (int kind = 0; kind < CZ_N_PART; kind++)
+        side->part[kind] = cz_end_has(end, (CzPartKind)kind) ? (Part){true, gap[kind], height[kind]}
+                                                             : bare_part(end);
+    side->part[SUPERSTRUCTURE] = side->part[DRAW_GEAR] = (Part){.height = NAN};
+    if (end->given && end->superstructure.given)
         side->part[SUPERSTRUCTURE] =
             (Part){side->is_full, end->superstructure.gap, end->superstructure.height};
-    if (end->draw_gear.given)
+    if (end->given && end->draw_gear.given)
         side->part[DRAW_GEAR] = (Part){true, 0.0, end->draw_gear.height};
 }
 
@@ -92,11 +107,33 @@ static bool both_have(const Pair *pair, Kind kind) {
     return pair->side[CZ_SIDE_A].part[kind].is_there && pair->side[CZ_SIDE_B].part[kind].is_there;
 }
 
-/* Parts act as a pair when both sides have them, or one has them and the other is fixed. */
-static bool pairs(const Pair *pair, Kind kind) {
-    const Side *a = &pair->side[CZ_SIDE_A], *b = &pair->side[CZ_SIDE_B];
-    return both_have(pair, kind) || (a->part[kind].is_there && b->is_fixed) ||
-           (b->part[kind].is_there && a->is_fixed);
+/* Height of the other end over its own in its file, with the offsets of both; NaN where every force
+ * acts along the track. */
+static double rise_of_other(const Pair *pair, int which) {
+    const Side *own = &pair->side[which], *other = &pair->side[1 - which];
+    return pair->tilts ? other->offset - own->offset : NAN;
+}
+
+/* Whether the part of a side acts: on the part of its kind, or on the bare end opposite. */
+static bool part_acts(const Pair *pair, int which, Kind kind) {
+    const Side *own = &pair->side[which], *other = &pair->side[1 - which];
+    return own->part[kind].is_there &&
+           (other->part[kind].is_there ||
+            cz_part_strikes(own->end, (CzPartKind)kind, other->end, rise_of_other(pair, which)));
+}
+
+/* Finds which kinds of parts act. Bare ends meet always, also behind an anti-climber that passes
+ * the other end. */
+static void find_pairs(Pair *pair) {
+    for (int kind = 0; kind < CZ_N_PART; kind++)
+        pair->has[kind] =
+            part_acts(pair, CZ_SIDE_A, (Kind)kind) || part_acts(pair, CZ_SIDE_B, (Kind)kind);
+    for (int which = CZ_SIDE_A; which <= CZ_SIDE_B; which++)
+        if (!pair->has[FACE])
+            pair->side[which].part[FACE] = bare_part(pair->side[which].end);
+    pair->has[FACE] = true;
+    pair->has[SUPERSTRUCTURE] = both_have(pair, SUPERSTRUCTURE);
+    pair->has[DRAW_GEAR] = pair->lane != pair->fill->model->colliding && both_have(pair, DRAW_GEAR);
 }
 
 static double gaps_of(const Pair *pair, Kind kind) {
@@ -115,8 +152,32 @@ typedef struct Heights {
     double rise;    /* [m] */
 } Heights;
 
+/* The side whose part strikes the bare end of the other one; -1: none. */
+static int striker_of(const Pair *pair, Kind kind) {
+    const bool of_a = pair->side[CZ_SIDE_A].part[kind].is_there;
+    const bool of_b = pair->side[CZ_SIDE_B].part[kind].is_there;
+    return !pair->tilts || of_a == of_b ? -1 : of_a ? CZ_SIDE_A : CZ_SIDE_B;
+}
+
+/* Height at which a part strikes the bare end of the other side, with the offsets: the middle of
+ * the heights that they share [m]. */
+static double struck_height(const Pair *pair, Kind kind, int striker) {
+    const Side *own = &pair->side[striker], *other = &pair->side[1 - striker];
+    const CzHeightRange part = cz_part_heights(own->end, (CzPartKind)kind);
+    const CzHeightRange structure = cz_structure_heights(other->end);
+    const double low = fmax(part.low + own->offset, structure.low + other->offset);
+    const double high = fmin(part.high + own->offset, structure.high + other->offset);
+    const double middle = (low + high) / 2.0; /* a height that is not given counts for none */
+    return isnan(middle) ? other->part[kind].height + other->offset : middle;
+}
+
 static Heights heights_of(const Pair *pair, Kind kind) {
     const Side *a = &pair->side[CZ_SIDE_A], *b = &pair->side[CZ_SIDE_B];
+    const int striker = (int)kind < CZ_N_PART ? striker_of(pair, kind) : -1;
+    if (striker >= 0) {
+        const double height = struck_height(pair, kind, striker);
+        return (Heights){{height - a->offset, height - b->offset}, 0.0};
+    }
     Heights heights = {.side = {a->part[kind].height, b->part[kind].height}};
     if (isnan(heights.side[0]))
         heights.side[0] = isnan(heights.side[1]) ? 0.0 : heights.side[1];
@@ -152,7 +213,7 @@ static CzStatus place_cars(Pair *pair) {
         pair->distance = -nearest;
         return CZ_OK;
     }
-    pair->distance = pair->has[COUPLER] ? -gaps_of(pair, COUPLER) : 0.0;
+    pair->distance = both_have(pair, COUPLER) ? -gaps_of(pair, COUPLER) : 0.0;
     if (pair->distance + nearest < -OVERLAP_TOLERANCE)
         return cz_fill_refuse(
             pair->fill, part_name(pair, CZ_SIDE_A, "coupler"),
@@ -218,8 +279,8 @@ static void fill_pivot(const Pair *pair, int which, double height) {
     const Side *side = &pair->side[which];
     const size_t i = pair->i;
     const double length = strut_length(pair, which), behind = side->part[COUPLER].gap + length;
-    const bool on_end =
-        side->is_full && side->part[COUPLER].is_there && side->end->coupler.anchor == CZ_ANCHOR_END;
+    const bool on_end = side->is_full && (!side->part[COUPLER].is_there ||
+                                          side->end->coupler.anchor == CZ_ANCHOR_END);
     const double carrier = on_end ? side->end->cg_height : side->vehicle->cg_height;
     const double arm = side->plane - behind - (on_end ? side->end->distance : 0.0);
     rows->side[which].on_end[i] = on_end;
@@ -353,6 +414,41 @@ static void fill_ribs(const Pair *pair) {
     rows->overlap[i] = (a->face_height + b->face_height) / 2.0;
 }
 
+/* The smaller of the coefficients that are given; 0 for none. */
+static double friction_of(const Pair *pair, const double friction[2]) {
+    return pair->tilts ? value_or_zero(fmin(friction[0], friction[1])) : 0.0;
+}
+
+/* Friction of an anti-climber on a bare end, or of two bare ends, and the overlap of the first. */
+static void fill_rub(const Pair *pair) {
+    CzFaceRows *rows = &pair->rows->face;
+    const size_t i = pair->i;
+    const int striker = striker_of(pair, FACE);
+    double friction[2], centre[2];
+    for (int which = CZ_SIDE_A; which <= CZ_SIDE_B; which++) {
+        const Side *side = &pair->side[which];
+        friction[which] = which == striker   ? side->end->anti_climber.friction
+                          : side->end->given ? side->end->face_friction
+                                             : NAN;
+        centre[which] = side->part[FACE].height + side->offset;
+    }
+    rows->friction[i] = friction_of(pair, friction);
+    if (rows->friction[i] > 0.0)
+        rows->stiffness_vertical[i] = striker >= 0
+                                          ? pair->side[striker].end->anti_climber.vertical_stiffness
+                                          : BARE_STIFFNESS;
+    if (striker < 0)
+        return;
+    const CzAntiClimber *device = &pair->side[striker].end->anti_climber;
+    const CzHeightRange structure = cz_structure_heights(pair->side[1 - striker].end);
+    const double overlap = (device->face_height + structure.high - structure.low) / 2.0;
+    if (isnan(overlap))
+        return;
+    rows->overlap[i] = overlap;
+    rows->eccentricity[i] = centre[CZ_SIDE_A] - centre[CZ_SIDE_B];
+    rows->rib_pitch[i] = device->face_height / fmax(device->rib_count, 1.0);
+}
+
 static CzStatus fill_faces(const Pair *pair) {
     CzFaceRows *rows = &pair->rows->face;
     const Side *side = pair->side;
@@ -372,10 +468,27 @@ static CzStatus fill_faces(const Pair *pair) {
         both_have(pair, FACE) ? in_series(damping[0], damping[1]) : damping[0] + damping[1];
     if (both_have(pair, FACE))
         fill_ribs(pair);
+    else
+        fill_rub(pair);
     return CZ_OK;
 }
 
 /* ---- side buffers ---- */
+
+/* Friction of two plates, or of one on a bare end. */
+static double plate_friction(const Pair *pair) {
+    double friction[2];
+    for (int which = CZ_SIDE_A; which <= CZ_SIDE_B; which++) {
+        const CzEnd *end = pair->side[which].end;
+        const bool has_plates = pair->side[which].part[SIDE_BUFFERS].is_there;
+        friction[which] = has_plates   ? end->side_buffers.friction
+                          : end->given ? end->face_friction
+                                       : NAN;
+    }
+    if (both_have(pair, SIDE_BUFFERS))
+        return fmin(value_or_zero(friction[0]), value_or_zero(friction[1]));
+    return friction_of(pair, friction);
+}
 
 static CzStatus fill_side_buffers(const Pair *pair) {
     CzSideBufferRows *rows = &pair->rows->side_buffers;
@@ -397,10 +510,7 @@ static CzStatus fill_side_buffers(const Pair *pair) {
     }
     rows->exists[pair->i] = 1.0;
     rows->compliance[pair->i] = compliance;
-    if (both_have(pair, SIDE_BUFFERS))
-        rows->friction[pair->i] =
-            fmin(value_or_zero(pair->side[CZ_SIDE_A].end->side_buffers.friction),
-                 value_or_zero(pair->side[CZ_SIDE_B].end->side_buffers.friction));
+    rows->friction[pair->i] = plate_friction(pair);
     pair->fill->lanes->has.side_buffers = 1;
     return CZ_OK;
 }
@@ -454,11 +564,8 @@ CzStatus cz_fill_interface(const CzFill *fill, int interface, const CzStatics *b
     const Side *a = &pair.side[CZ_SIDE_A], *b = &pair.side[CZ_SIDE_B];
     pair.tilts = (a->is_full || b->is_full) && !a->is_fixed && !b->is_fixed;
     pair.rows->tilts[pair.i] = pair.tilts;
-    pair.has[COUPLER] = pairs(&pair, COUPLER);
-    pair.has[SIDE_BUFFERS] = pairs(&pair, SIDE_BUFFERS);
-    pair.has[SUPERSTRUCTURE] = both_have(&pair, SUPERSTRUCTURE);
-    pair.has[DRAW_GEAR] = interface != fill->model->colliding && both_have(&pair, DRAW_GEAR);
     set_offsets(&pair);
+    find_pairs(&pair);
     CZ_TRY(place_cars(&pair));
     CZ_TRY(fill_couplers(&pair));
     CZ_TRY(fill_faces(&pair));

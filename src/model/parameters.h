@@ -120,16 +120,16 @@ typedef struct CzHingeRows {
 } CzHingeRows;
 
 typedef struct CzCouplerRows {
-    CzRow exists;  /* 1 when both sides have a coupler (a fixed partner requires none: side B then
-                      has  neutral members) */
-    CzRow coupled; /* 1 when the couplers carry tension: inner interfaces */
+    CzRow exists;     /* 1 when both sides have a coupler, or one strikes the bare end of the other
+                         side, which then has neutral members */
+    CzRow coupled;    /* 1 when the couplers carry tension: inner interfaces */
     CzPairRows pivot; /* the lengths of struts are in the distance; 1 without couplers */
     CzRow length; /* distance between the pivots, along their line, at which the faces just touch;
                      1 without couplers [m] */
     CzRow along;  /* the same along the track [m] */
     CzRow compliance; /* sum of 1/stiffness of all tubes of both sides [m/N] */
     struct {
-        CzRow on_end;       /* 1 when the pivot is fixed to the end mass */
+        CzRow on_end;       /* 1 when the pivot, or what a coupler strikes, is on the end mass */
         CzRow strut_length; /* pivot to face, uncompressed, of a coupler whose line can rotate: its
                                largest shortening [m]; CZ_NEVER if none */
         CzBufferRows buffer;
@@ -144,14 +144,16 @@ typedef struct CzFaceRows {
     CzPairRows contact; /* face centres; on the end mass (rigid, fixed: on the body) */
     CzRow compliance;   /* sum of 1/stiffness of the anti-climbers of both sides [m/N] */
     CzRow damping;      /* both sides in series [N s/m] */
-    CzRow overlap;   /* vertical, of two level faces: half the sum of the face heights [m]; CZ_NEVER
-                        where nothing can climb (rigid, fixed) */
-    CzRow rib_pitch; /* face height over rib count, the larger of both sides; 1 without
-                        ribs [m] */
-    CzRow rib_depth; /* closure over which the ribs engage; 1 without ribs [m] */
-    CzRow rib_capacity;       /* vertical capacity of all ribs when the faces are level: the weaker
-                                 side's count * devices * strength [N] */
-    CzRow friction;           /* the smaller of both sides [-] */
+    CzRow overlap; /* vertical, of two level faces: half the sum of the face heights [m]; CZ_NEVER
+                      where nothing can climb (rigid, fixed) */
+    CzRow eccentricity; /* height of side A's face over side B's where their slip is 0; 0 but of an
+                           anti-climber on a bare end, which touch at one height [m] */
+    CzRow rib_pitch;    /* face height over rib count, the larger of both sides; 1 without
+                           ribs [m] */
+    CzRow rib_depth;    /* closure over which the ribs engage; 1 without ribs [m] */
+    CzRow rib_capacity; /* vertical capacity of all ribs when the faces are level: the weaker
+                           side's count * devices * strength [N] */
+    CzRow friction;     /* the smaller of both sides [-] */
     CzRow stiffness_vertical; /* both sides in series; 1 if none [N/m] */
     struct {
         CzRow rate;         /* rate factor of the anti-climber [s/m] */
@@ -175,7 +177,7 @@ typedef struct CzDrawGearRows {
 } CzDrawGearRows;
 
 typedef struct CzSideBufferRows {
-    CzRow exists;       /* 1 when both sides have side buffers, or one has and the other is fixed */
+    CzRow exists; /* 1 when both sides have side buffers, or one strikes the other's bare end */
     CzPairRows contact; /* plates, on the end masses */
     CzRow compliance;   /* sum of 1/stiffness of the crash elements of both sides [m/N] */
     CzRow friction;     /* [-] */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "problem/meeting.h"
 
 /* ---- the partner of a vehicle end ---- */
 
@@ -38,16 +39,34 @@ static bool has_levels(const Meeting *meeting) {
            !is_model(meeting, CZ_MODEL_FIXED);
 }
 
-static bool has_bare_levels(const Meeting *meeting) {
-    return has_levels(meeting) && !meeting->end->anti_climber.given;
+/* Whether the other end has a part of a kind and this one none, so that it strikes this end. */
+static bool is_struck_by(const Meeting *meeting, CzPartKind kind) {
+    return meeting->other != NULL && cz_end_has(meeting->opposite, kind) &&
+           !cz_end_has(meeting->end, kind);
 }
 
-static bool slides_on_faces(const Meeting *meeting) {
+static bool is_struck_by_coupler(const Meeting *meeting) {
+    return is_struck_by(meeting, CZ_PART_COUPLER);
+}
+
+static bool is_struck_at_height(const Meeting *meeting) {
+    return (is_struck_by(meeting, CZ_PART_FACE) || is_struck_by(meeting, CZ_PART_COUPLER) ||
+            is_struck_by(meeting, CZ_PART_SIDE_BUFFERS)) &&
+           has_levels(meeting);
+}
+
+static bool has_bare_levels(const Meeting *meeting) {
+    return has_levels(meeting) &&
+           (!meeting->end->anti_climber.given || !isnan(meeting->end->face_height));
+}
+
+static bool has_faces(const Meeting *meeting) {
     return has_levels(meeting) && meeting->opposite->anti_climber.given;
 }
 
-static bool slides_on_plates(const Meeting *meeting) {
-    return has_levels(meeting) && meeting->opposite->side_buffers.given;
+static bool slides_bare(const Meeting *meeting) {
+    return has_levels(meeting) &&
+           (!meeting->end->anti_climber.given || is_struck_by(meeting, CZ_PART_SIDE_BUFFERS));
 }
 
 static bool has_superstructures(const Meeting *meeting) {

@@ -5,6 +5,7 @@
 
 #include "base/suggest.h"
 #include "crushzone/names.h"
+#include "problem/meeting.h"
 #include "problem/rules.h"
 
 /* ---- vehicles ---- */
@@ -75,41 +76,67 @@ static bool can_deflect(const CzEnd *end) {
 typedef struct Facing {
     const CzVehicle *own, *other;
     const CzEnd *end, *opposite;
+    double rise; /* of the opposite end over its height in the file; NaN where it does not matter
+                    [m] */
 } Facing;
 
-/* Couplers and side buffers act in pairs, or unpaired against a fixed partner. */
-static void warn_of_unpaired_devices(const CzRules *rules, const Facing *facing) {
-    const CzEnd *end = facing->end, *opposite = facing->opposite;
-    const char *own = name_of(facing->own->name), *other = name_of(facing->other->name);
-    if (facing->other->model == CZ_MODEL_FIXED)
+/* A part without a counterpart that passes the end opposite carries no force. */
+static void warn_of_passing(const CzRules *rules, const Facing *facing, CzPartKind kind) {
+    const CzEnd *end = facing->end;
+    static const char *const names[] = {"coupler", "anti-climber", "side buffers"};
+    const void *const place[] = {&end->coupler, &end->anti_climber, &end->side_buffers};
+    if (!cz_end_has(end, kind))
         return;
-    if (end->coupler.given && !opposite->coupler.given)
-        cz_rule_warning(rules, &end->coupler,
-                        "unpaired coupler: '%.48s' has none opposite that of '%.48s', which then "
-                        "carries no force; in reality it would strike the headstock",
-                        other, own);
-    if (end->side_buffers.given && !opposite->side_buffers.given)
-        cz_rule_warning(rules, &end->side_buffers,
-                        "unpaired side buffers: '%.48s' has none opposite those of '%.48s', which "
-                        "then carry no force; in reality they would strike the headstock",
-                        other, own);
+    const CzMeets meets = cz_part_meets(end, kind, facing->opposite, facing->rise);
+    const bool is_over = meets == CZ_PASSES_OVER;
+    if (!is_over && meets != CZ_PASSES_UNDER)
+        return;
+    const CzHeightRange part = cz_part_heights(end, kind);
+    const CzHeightRange structure = cz_structure_heights(facing->opposite);
+    cz_rule_warning(rules, place[kind],
+                    "no force: the %s of '%.48s', %s at %s, %s %s the end structure of '%.48s', "
+                    "whose %s is at %s",
+                    names[kind], name_of(facing->own->name), is_over ? "lowest" : "highest",
+                    CZ_MM(is_over ? part.low : part.high),
+                    kind == CZ_PART_SIDE_BUFFERS ? "pass" : "passes", is_over ? "over" : "under",
+                    name_of(facing->other->name), is_over ? "top" : "bottom",
+                    CZ_MM((is_over ? structure.high : structure.low) + facing->rise));
 }
 
-/* A coupler that meets that of a full vehicle is part of a strut between two pivots. */
+/* The coupler of a rigid vehicle that meets a full one is part of a strut between two pivots. */
 static void check_strut(const CzRules *rules, const Facing *facing) {
     const CzCoupler *coupler = &facing->end->coupler;
-    if (coupler->given && facing->opposite->coupler.given && !(coupler->length > 0) &&
-        facing->own->model == CZ_MODEL_RIGID && facing->other->model == CZ_MODEL_FULL)
+    if (!coupler->given || coupler->length > 0 || facing->own->model != CZ_MODEL_RIGID ||
+        facing->other->model != CZ_MODEL_FULL)
+        return;
+    const char *own = name_of(facing->own->name), *other = name_of(facing->other->name);
+    if (facing->opposite->coupler.given)
         cz_rule_absent(rules, coupler,
                        "the coupler of rigid '%.48s' meets that of full '%.48s', and the line "
                        "between their pivots requires the length of both: length_m or length_mm",
-                       name_of(facing->own->name), name_of(facing->other->name));
+                       own, other);
+    else if (cz_part_strikes(facing->end, CZ_PART_COUPLER, facing->opposite, facing->rise))
+        cz_rule_absent(rules, coupler,
+                       "the coupler of rigid '%.48s' strikes full '%.48s', and the line of its "
+                       "force requires its length: length_m or length_mm",
+                       own, other);
 }
 
-static void check_neighbours(const CzRules *rules, const CzVehicle *behind,
-                             const CzVehicle *ahead) {
-    const Facing ends[2] = {{behind, ahead, &behind->front, &ahead->rear},
-                            {ahead, behind, &ahead->rear, &behind->front}};
+static bool has_full(const CzVehicle *behind, const CzVehicle *ahead) {
+    return behind->model == CZ_MODEL_FULL || ahead->model == CZ_MODEL_FULL;
+}
+
+static bool has_fixed(const CzVehicle *behind, const CzVehicle *ahead) {
+    return behind->model == CZ_MODEL_FIXED || ahead->model == CZ_MODEL_FIXED;
+}
+
+/* The car ahead is higher by `rise` than in its file, compared with the one behind. */
+static void check_neighbours(const CzRules *rules, const CzVehicle *behind, const CzVehicle *ahead,
+                             double rise) {
+    const bool has_levels = has_full(behind, ahead) && !has_fixed(behind, ahead);
+    const double ahead_rise = has_levels ? rise : NAN;
+    const Facing ends[2] = {{behind, ahead, &behind->front, &ahead->rear, ahead_rise},
+                            {ahead, behind, &ahead->rear, &behind->front, -ahead_rise}};
     if (!behind->given || !ahead->given)
         return;
     if (!can_deflect(&behind->front) && !can_deflect(&ahead->rear))
@@ -117,7 +144,8 @@ static void check_neighbours(const CzRules *rules, const CzVehicle *behind,
                        "no device can deflect between '%.48s' and '%.48s': neither end has one",
                        name_of(behind->name), name_of(ahead->name));
     for (int i = 0; i < 2; i++) {
-        warn_of_unpaired_devices(rules, &ends[i]);
+        for (int kind = 0; kind < CZ_N_PART; kind++)
+            warn_of_passing(rules, &ends[i], (CzPartKind)kind);
         check_strut(rules, &ends[i]);
     }
 }
@@ -152,7 +180,7 @@ static void check_train(const CzRules *rules, const CzTrain *train) {
             "{friction: ...}}'");
     check_standing(rules, train, &train->speed);
     for (int i = 1; i < train->n_vehicles; i++)
-        check_neighbours(rules, &train->vehicles[i - 1], &train->vehicles[i]);
+        check_neighbours(rules, &train->vehicles[i - 1], &train->vehicles[i], 0);
 }
 
 void cz_rules_check_trains(const CzRules *rules) {
@@ -248,9 +276,8 @@ static void check_interface(const CzRules *rules, const CzScenario *scenario,
 /* A height offset has an effect only on a full vehicle that meets a movable one. */
 static void check_offset(const CzRules *rules, const double *offset, const CzVehicle *behind,
                          const CzVehicle *ahead) {
-    const bool is_full = behind->model == CZ_MODEL_FULL || ahead->model == CZ_MODEL_FULL;
-    const bool is_fixed = behind->model == CZ_MODEL_FIXED || ahead->model == CZ_MODEL_FIXED;
-    if (!isnan(*offset) && *offset != 0 && (!is_full || is_fixed))
+    const bool is_fixed = has_fixed(behind, ahead);
+    if (!isnan(*offset) && *offset != 0 && (!has_full(behind, ahead) || is_fixed))
         cz_rule_warning(rules, offset, "no effect: %s",
                         is_fixed ? "a fixed vehicle is a vertical plane"
                                  : "neither of its vehicles is of model: full");
@@ -336,8 +363,9 @@ void cz_rules_check_scenarios(const CzRules *rules) {
         check_brake(rules, &scenario->brake_ratio, pair[0]);
         check_brake(rules, &scenario->partner_brake_ratio, pair[1]);
         if (pair[0]->n_vehicles > 0 && pair[1]->n_vehicles > 0)
-            check_neighbours(rules, &pair[0]->vehicles[pair[0]->n_vehicles - 1],
-                             &pair[1]->vehicles[0]);
+            check_neighbours(
+                rules, &pair[0]->vehicles[pair[0]->n_vehicles - 1], &pair[1]->vehicles[0],
+                chosen(scenario->height_offset, pair[1]->height_offset) - pair[0]->height_offset);
     }
     if (input->n_scenarios == 0 && input->n_trains > 1) {
         const CzTrain *const pair[2] = {&input->trains[0], &input->trains[1]};

@@ -12,6 +12,7 @@ set(CZ_SOURCES_problem
     inventory.c
     keys.c
     measured.c
+    meeting.c
     places.c
     problem_bytes.c
     profile.c

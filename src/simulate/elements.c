@@ -279,8 +279,10 @@ void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterf
     const double lost_overlap = cz_extreme(batch, CZ_EXTREME(face_lost_overlap), lane);
     const double lost_margin = cz_extreme(batch, CZ_EXTREME(face_lost_margin), lane);
     const bool can_climb = batch->equipment[lane].can_climb;
+    const bool has_ribs = batch->equipment[lane].has_ribs;
     result->min_overlap = can_climb && lost_overlap > CZ_NOT_YET ? -lost_overlap : NAN;
-    result->vertical_margin = can_climb && lost_margin > CZ_NOT_YET ? -lost_margin : NAN;
+    result->vertical_margin =
+        can_climb && has_ribs && lost_margin > CZ_NOT_YET ? -lost_margin : NAN;
     result->vertical_demand = cz_extreme(batch, CZ_EXTREME(face_demand_vertical), lane);
     fill_climbing(batch, interface, design, result);
     result->n_element = 0;

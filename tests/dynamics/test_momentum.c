@@ -119,8 +119,8 @@ static void sum_momenta(const Motion *motion, Body body[N_CAR][N_BODY], Sum *x, 
 
 /* The rail is taken away: no contact stiffness, so no normal and no tangential force. Draw gears
  * are tightened by 0.3 m, because an impact leaves them slack. */
-static Motion collision_of(const char *const *set) {
-    Motion motion = motion_open("tests/physics/cases/offset-collision.yaml", set);
+static Motion collision_of(const char *file, const char *const *set) {
+    Motion motion = motion_open(file, set);
     for (int car = 0; car < N_CAR; car++) {
         double *slack = parameter(&motion, CZ_PARAMETER(draw_gear.slack), car);
         *parameter(&motion, CZ_PARAMETER(wheel.hertz), car) = 0.0;
@@ -130,12 +130,15 @@ static Motion collision_of(const char *const *set) {
     return motion;
 }
 
+static const char every_element[] = "tests/physics/cases/offset-collision.yaml";
+static const char unlike_ends[] = "tests/physics/cases/unlike-ends.yaml";
+
 static Motion collision_in_space(const char *step) {
-    return collision_of(WITH(step));
+    return collision_of(every_element, WITH(step));
 }
 
-static void assert_nothing_is_left(const char *const *set) {
-    Motion motion = collision_of(set);
+static void assert_nothing_is_left(const char *file, const char *const *set) {
+    Motion motion = collision_of(file, set);
     Body body[N_CAR][N_BODY];
     place_train(&motion, body);
     double worst[3] = {0.0};
@@ -159,14 +162,38 @@ static void assert_nothing_is_left(const char *const *set) {
 
 static void forces_and_moments_add_up_to_zero_at_every_step(void **state) {
     (void)state;
-    assert_nothing_is_left(WITH("simulation.time_step_ms=0.05"));
+    assert_nothing_is_left(every_element, WITH("simulation.time_step_ms=0.05"));
 }
 
 /* Pivots on end masses have other lever arms of couplers and hinges. */
 static void the_sums_are_zero_with_couplers_on_the_end_masses(void **state) {
     (void)state;
-    assert_nothing_is_left(WITH("simulation.time_step_ms=0.05", "parts.front-coupler.anchor=end",
+    assert_nothing_is_left(every_element,
+                           WITH("simulation.time_step_ms=0.05", "parts.front-coupler.anchor=end",
                                 "parts.inner-coupler.anchor=end"));
+}
+
+static const CzParameter exists[] = {CZ_PARAMETER(coupler.exists),
+                                     CZ_PARAMETER(side_buffers.exists)};
+
+/* Coupler, anti-climber and side buffers strike bare ends, with friction. */
+static void the_sums_are_zero_where_unlike_ends_meet(void **state) {
+    (void)state;
+    const char *const *set = WITH("simulation.time_step_ms=0.05");
+    assert_nothing_is_left(unlike_ends, set);
+    Motion motion = collision_of(unlike_ends, set);
+    for (size_t i = 0; i < sizeof exists / sizeof exists[0]; i++)
+        assert_near(value(&motion, exists[i], 1), 1.0, 0.0, 0.0);
+    for (int i = 0; i < 8000; i++) {
+        motion_advance(&motion);
+        motion_evaluate(&motion);
+    }
+    static const int rows[] = {CZ_LEDGER(coupler),      CZ_LEDGER(hinge[0]),
+                               CZ_LEDGER(face),         CZ_LEDGER(face_sliding),
+                               CZ_LEDGER(side_buffers), CZ_LEDGER(side_sliding)};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        assert_true(fabs(work_at(&motion, rows[i], 1)) > 1e-4);
+    motion_close(&motion);
 }
 
 /* Otherwise the sums above would prove nothing. */
@@ -224,8 +251,8 @@ static void angular_momentum_is_conserved_to_the_order_of_the_step(void **state)
 }
 
 /* Difference between the energy that the elements absorb and that the bodies lose, as a share. */
-static double missing_energy(const char *step, int n_step) {
-    Motion motion = collision_in_space(step);
+static double missing_energy(const char *file, const char *step, int n_step) {
+    Motion motion = collision_of(file, WITH(step));
     const double before = motion_kinetic_energy(&motion);
     for (int i = 0; i < n_step; i++) {
         motion_advance(&motion);
@@ -243,18 +270,22 @@ static double missing_energy(const char *step, int n_step) {
 /* A hundredth of the tolerance for shipped problems, 1e-4 (docs/verification.md, C5). */
 static void the_energy_balance_closes_with_the_step(void **state) {
     (void)state;
-    const double coarse = missing_energy("simulation.time_step_ms=0.04", 5000);
-    const double fine = missing_energy("simulation.time_step_ms=0.01", 20000);
-    if (getenv("CZ_TOL_SCALE") != NULL)
-        print_message("missing %g at 0.04 ms, %g at 0.01 ms\n", coarse, fine);
-    assert_near(coarse, 0.0, 0.0, 1e-6);
-    assert_true(fine < 0.5 * coarse);
+    static const char *const files[] = {every_element, unlike_ends};
+    for (int i = 0; i < 2; i++) {
+        const double coarse = missing_energy(files[i], "simulation.time_step_ms=0.04", 5000);
+        const double fine = missing_energy(files[i], "simulation.time_step_ms=0.01", 20000);
+        if (getenv("CZ_TOL_SCALE") != NULL)
+            print_message("missing %g at 0.04 ms, %g at 0.01 ms\n", coarse, fine);
+        assert_near(coarse, 0.0, 0.0, 1e-6);
+        assert_true(fine < 0.5 * coarse);
+    }
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(forces_and_moments_add_up_to_zero_at_every_step),
         cmocka_unit_test(the_sums_are_zero_with_couplers_on_the_end_masses),
+        cmocka_unit_test(the_sums_are_zero_where_unlike_ends_meet),
         cmocka_unit_test(every_element_absorbed_energy),
         cmocka_unit_test(angular_momentum_is_conserved_to_the_order_of_the_step),
         cmocka_unit_test(the_energy_balance_closes_with_the_step),

@@ -81,11 +81,11 @@ static void inner_couplers_are_coupled_face_to_face(void **state) {
 
     problem.vehicle[0].front.coupler.given = false;
     built = build_model(&problem);
-    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.exists)), 0.0, 0.0, 0.0);
     assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.coupled)), 0.0, 0.0, 0.0);
     assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.distance)), 0.64,
                 ROUNDING_OF_A_FORMULA, 0.0);
-    assert_true(isnan(cz_model_interface_properties(built.model, 0).strut_length));
+    assert_near(cz_model_interface_properties(built.model, 0).strut_length, 1.4,
+                ROUNDING_OF_A_FORMULA, 0.0);
     free_model(&built);
 }
 
@@ -160,15 +160,80 @@ static void a_wall_meets_coupler_and_anti_climber_at_their_heights(void **state)
     free_model(&built);
 }
 
-static void couplers_of_one_moving_side_only_have_no_effect(void **state) {
+static void a_coupler_without_a_counterpart_strikes_the_bare_end(void **state) {
     (void)state;
     const CzVehicle car = typed_full(), wagon = typed_rigid(80e3);
     struct CzProblem problem;
     typed_problem_init(&problem, 1, &car, 1, &wagon, 10.0);
     Built built = build_model(&problem);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.exists)), 1.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.coupled)), 0.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.length)), 1.4, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.pivot.rise)), 0.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.distance)),
+                car.front.anti_climber.gap, ROUNDING_OF_A_VALUE, 0.0);
+    free_model(&built);
+}
+
+/* The struck point is at the height of what strikes it, on the end mass. */
+static void parts_strike_a_bare_end_at_their_own_heights(void **state) {
+    (void)state;
+    CzVehicle car = typed_full(), bare = typed_full();
+    bare.rear.coupler.given = bare.rear.anti_climber.given = false;
+    bare.rear.face_height = 0.6;
+    struct CzProblem problem;
+    typed_problem_init(&problem, 1, &car, 1, &bare, 10.0);
+    problem.train[1].height_offset = 0.04;
+    Built built = build_model(&problem);
+    const CzEnd *end = &bare.rear;
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.side[1].on_end)), 1.0, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.pivot.z[1])),
+                car.front.coupler.height - 0.04 - end->cg_height, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.pivot.x[1])),
+                -(11.4 - end->face_gap - end->distance), 1e-13, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.pivot.rise)), 0.0, 0.0, 0.0);
+    const CzAntiClimber *device = &car.front.anti_climber;
+    const double low =
+        fmax(device->height - device->face_height / 2, end->crush_height - 0.3 + 0.04);
+    const double high =
+        fmin(device->height + device->face_height / 2, end->crush_height + 0.3 + 0.04);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.z[0])),
+                (low + high) / 2 - car.front.cg_height, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.z[1])),
+                (low + high) / 2 - 0.04 - end->cg_height, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.eccentricity)),
+                device->height - end->crush_height - 0.04, 1e-14, 1e-15);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.overlap)), (device->face_height + 0.6) / 2,
+                ROUNDING_OF_A_FORMULA, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.friction)), device->friction, 0.0, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.rib_capacity)), 0.0, 0.0, 0.0);
+    free_model(&built);
+}
+
+/* An end structure from 0.75 to 0.95 m: a coupler at 0.72 m passes under it, an anti-climber at
+ * 2.0 m over it; the bare end behind the anti-climber meets it. */
+static void parts_pass_a_bare_end_that_they_do_not_overlap(void **state) {
+    (void)state;
+    CzVehicle car = typed_full(), bare = typed_full();
+    bare.rear.coupler.given = bare.rear.anti_climber.given = false;
+    bare.rear.crush_height = 0.85;
+    bare.rear.face_height = 0.2;
+    car.front.coupler.height = 0.72;
+    car.front.anti_climber.height = 2.0;
+    struct CzProblem problem;
+    typed_problem_init(&problem, 1, &car, 1, &bare, 10.0);
+    Built built = build_model(&problem);
     assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.exists)), 0.0, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.distance)), 0.0, 0.0,
-                ROUNDING_OF_A_VALUE);
+    assert_near(curve_at(built.lanes, 0, CZ_CURVE(face[0]), 0.1), 1e30, 1e-15, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.distance)), 0.0, 0.0, 1e-15);
+    free_model(&built);
+
+    problem.vehicle[1].rear.face_height = 0.3;
+    problem.vehicle[1].rear.struck_by = CZ_STRUCK_BY_NO_COUPLERS;
+    problem.vehicle[0].front.anti_climber.height = 0.95;
+    built = build_model(&problem);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.exists)), 0.0, 0.0, 0.0);
+    assert_true(curve_at(built.lanes, 0, CZ_CURVE(face[0]), 0.1) < 1e10);
     free_model(&built);
 }
 
@@ -253,6 +318,7 @@ static CzSideBuffers side_buffers(double gap) {
 static void side_buffers_push_in_pairs(void **state) {
     (void)state;
     CzVehicle car = typed_full(), wagon = typed_rigid(80e3);
+    car.front.coupler.given = false;
     car.front.side_buffers = side_buffers(0.05);
     wagon.rear.side_buffers = side_buffers(0.0);
     wagon.rear.side_buffers.friction = NAN;
@@ -307,7 +373,9 @@ int main(void) {
         cmocka_unit_test(inner_couplers_are_coupled_face_to_face),
         cmocka_unit_test(height_offsets_raise_the_parts_ahead),
         cmocka_unit_test(a_wall_meets_coupler_and_anti_climber_at_their_heights),
-        cmocka_unit_test(couplers_of_one_moving_side_only_have_no_effect),
+        cmocka_unit_test(a_coupler_without_a_counterpart_strikes_the_bare_end),
+        cmocka_unit_test(parts_strike_a_bare_end_at_their_own_heights),
+        cmocka_unit_test(parts_pass_a_bare_end_that_they_do_not_overlap),
         cmocka_unit_test(crush_zones_without_end_mass_lie_in_series_with_the_face),
         cmocka_unit_test(devices_side_by_side_multiply_forces_and_stiffness),
         cmocka_unit_test(side_buffers_push_in_pairs),

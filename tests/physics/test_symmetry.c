@@ -36,11 +36,10 @@ static void assert_same_interface(const CzInterfaceResult *a, const CzInterfaceR
     assert_near(a->energy, b->energy, tolerance, tolerance);
 }
 
-static void a_mirrored_collision_is_the_mirror_image(void **state) {
-    (void)state;
+static void assert_mirror_image(const char *file, const char *mirror_image) {
     const char *const *until = WITH("simulation.duration_s=0.4", "trains.A.brake.axle_share=1");
-    Collision seen = collide("tests/physics/cases/offset-collision.yaml", until, 0);
-    Collision mirrored = collide("tests/physics/cases/offset-collision-mirrored.yaml", until, 0);
+    Collision seen = collide(file, until, 0);
+    Collision mirrored = collide(mirror_image, until, 0);
     assert_completed(&seen);
     assert_completed(&mirrored);
     for (int i = 0; i < 3; i++)
@@ -52,6 +51,18 @@ static void a_mirrored_collision_is_the_mirror_image(void **state) {
                             true, 1e-9);
     collision_free(&seen);
     collision_free(&mirrored);
+}
+
+static void a_mirrored_collision_is_the_mirror_image(void **state) {
+    (void)state;
+    assert_mirror_image("tests/physics/cases/offset-collision.yaml",
+                        "tests/physics/cases/offset-collision-mirrored.yaml");
+}
+
+static void a_mirrored_collision_of_unlike_ends_is_the_mirror_image(void **state) {
+    (void)state;
+    assert_mirror_image("tests/physics/cases/unlike-ends.yaml",
+                        "tests/physics/cases/unlike-ends-mirrored.yaml");
 }
 
 /* Galileo: without friction on the rail, two trains that are both 4 m/s slower collide in the same
@@ -136,6 +147,7 @@ static void faces_without_ribs_carry_their_whole_axial_force(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_mirrored_collision_is_the_mirror_image),
+        cmocka_unit_test(a_mirrored_collision_of_unlike_ends_is_the_mirror_image),
         cmocka_unit_test(the_speed_of_the_observer_does_not_matter),
         cmocka_unit_test(a_rigid_car_onto_an_identical_one_is_a_car_at_half_the_speed_into_a_wall),
         cmocka_unit_test(a_full_car_onto_an_identical_one_is_a_car_at_half_the_speed_into_a_wall),

@@ -276,27 +276,48 @@ static void every_spelling_of_null_removes_a_key(void **state) {
     }
 }
 
-static void a_coupler_without_a_counterpart_is_warned_of(void **state) {
+/* The coupler of the full car at 720 mm, and an end structure from 900 to 1200 mm, 40 mm higher or
+ * lower. */
+static void a_part_that_passes_the_end_opposite_is_warned_of(void **state) {
     (void)state;
-    static const char text[] = "extends: rigid.yaml\n"
-                               "parts:\n"
-                               "  draw:\n"
-                               "    height_m: 0.7\n"
-                               "    length_m: 1.2\n"
-                               "    hinge: {stiffness_kNm_rad: 1, moment_capacity_kNm: 1, "
-                               "swing_stop_deg: 6}\n"
-                               "    buffer: {stages: [{stroke_mm: 50, force_kN: 400}], "
-                               "unloading_share: 0.3}\n"
-                               "trains:\n"
-                               "  - name: A\n"
-                               "    vehicles:\n"
-                               "      - {name: A1, front: {coupler: {use: draw}}}\n";
-    CzProblem *problem = read_good_text(text);
-    assert_int_equal(cz_problem_n_warning(problem),
-                     OWN_WARNINGS + 2); /* height and hinge have no effect */
-    assert_non_null(strstr(cz_problem_warning(problem, 1)->message,
-                           "unpaired coupler: 'B1' has none opposite that of 'A1'"));
-    cz_problem_free(problem);
+    static const struct {
+        const char *wagon, *warning; /* NULL: none */
+    } cases[] = {
+        {"", NULL},
+        {", face_height_mm: 300", "no force: the coupler of 'A1', highest at 720 mm, passes under "
+                                  "the end structure of 'W1', "
+                                  "whose bottom is at 940 mm"},
+        {", face_height_mm: 800", NULL},
+        {", face_height_mm: 300, coupler: {height_m: 1, length_m: 1, buffer: {stages: [{stroke_mm: "
+         "50, force_kN: 900}]}}",
+         NULL},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[900];
+        snprintf(text, sizeof text,
+                 "schema: 1\ntitle: wagon\ncatalogue: [problems/catalogue/generic.yaml]\n"
+                 "simulation: {adhesion: {friction: 0.3}}\ntrains:\n"
+                 "  - {name: A, speed_m_s: 5, brake: {ratio: 0, axle_share: 0}, vehicles: [{name: "
+                 "A1, use: driving-car}]}\n"
+                 "  - {name: W, height_offset_mm: 40, vehicles: [{name: W1, model: rigid, mass_t: "
+                 "80, rear: {face_gap_m: 0, crush_height_m: 1.05%s}}]}\n",
+                 cases[i].wagon);
+        CzProblem *problem = NULL;
+        CzError error = {0};
+        const CzProblemOptions options = cz_problem_options_default();
+        assert_int_equal(cz_problem_read_text(text, strlen(text), "wagon.yaml", CZ_SOURCE_FOLDER,
+                                              &options, &problem, &error),
+                         CZ_OK);
+        const char *found = NULL;
+        for (int k = 0; k < cz_problem_n_warning(problem); k++)
+            if (strncmp(cz_problem_warning(problem, k)->message, "no force", 8) == 0)
+                found = cz_problem_warning(problem, k)->message;
+        if (cases[i].warning == NULL)
+            assert_null(found);
+        else
+            assert_true(found != NULL && strstr(found, cases[i].warning) == found);
+        cz_problem_free(problem);
+    }
 }
 
 static void a_sweep_is_one_scenario_per_combination(void **state) {
@@ -339,30 +360,6 @@ static void a_sweep_is_one_scenario_per_combination(void **state) {
     cz_problem_free(problem);
 }
 
-/* The buffer of a buffer stop does not act on a car without one; that of a car acts on a wall
- * without one. */
-static void a_buffer_of_a_fixed_partner_without_a_counterpart_is_warned_of(void **state) {
-    (void)state;
-    for (int is_of_car = 0; is_of_car < 2; is_of_car++) {
-        static const char *const buffers =
-            ", side_buffers: {buffer: {stages: [{stroke_mm: 100, force_kN: 1000}]}}";
-        char text[700];
-        snprintf(text, sizeof text,
-                 "schema: 1\ntitle: stop\ntrains:\n"
-                 "  - {name: A, speed_m_s: 2, vehicles: [{model: rigid, mass_t: 50, front: "
-                 "{face_gap_m: 1, unloading_stiffness_MN_m: 100, stages: [{stroke_mm: 300, "
-                 "force_kN: 2000}]%s}}]}\n"
-                 "  - {name: S, vehicles: [{model: fixed, rear: {face_gap_m: 1%s}}]}\n",
-                 is_of_car ? buffers : "", is_of_car ? "" : buffers);
-        CzProblem *problem = read_good_text(text);
-        assert_int_equal(cz_problem_n_warning(problem), is_of_car ? 0 : 1);
-        if (!is_of_car)
-            assert_non_null(strstr(cz_problem_warning(problem, 0)->message,
-                                   "unpaired side buffers: 'A1' has none opposite those of 'S1'"));
-        cz_problem_free(problem);
-    }
-}
-
 /* A third train without a scenario, and an unknown confidence. */
 static void unused_trains_and_unknown_confidences_are_warned_of(void **state) {
     static const char text[] =
@@ -399,9 +396,8 @@ int main(void) {
         cmocka_unit_test(limits_of_a_profile_are_those_of_the_category),
         cmocka_unit_test(a_byte_order_mark_before_the_text_is_ignored),
         cmocka_unit_test(every_spelling_of_null_removes_a_key),
-        cmocka_unit_test(a_coupler_without_a_counterpart_is_warned_of),
+        cmocka_unit_test(a_part_that_passes_the_end_opposite_is_warned_of),
         cmocka_unit_test(a_sweep_is_one_scenario_per_combination),
-        cmocka_unit_test(a_buffer_of_a_fixed_partner_without_a_counterpart_is_warned_of),
         cmocka_unit_test(unused_trains_and_unknown_confidences_are_warned_of),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

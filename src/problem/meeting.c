@@ -1,0 +1,41 @@
+/* Which part of an end meets which part of the end that it faces. */
+#include "problem/meeting.h"
+
+bool cz_end_has(const CzEnd *end, CzPartKind kind) {
+    const bool has[CZ_N_PART] = {[CZ_PART_COUPLER] = end->coupler.given,
+                                 [CZ_PART_FACE] = end->anti_climber.given,
+                                 [CZ_PART_SIDE_BUFFERS] = end->side_buffers.given};
+    return end->given && has[kind];
+}
+
+/* Heights around a middle; NaN where one of them is not given. */
+static CzHeightRange heights_about(double middle, double height) {
+    return (CzHeightRange){middle - height / 2.0, middle + height / 2.0};
+}
+
+CzHeightRange cz_part_heights(const CzEnd *end, CzPartKind kind) {
+    const CzAntiClimber *device = &end->anti_climber;
+    if (kind == CZ_PART_COUPLER)
+        return heights_about(end->coupler.height, 0.0);
+    if (kind == CZ_PART_SIDE_BUFFERS)
+        return heights_about(end->side_buffers.height, 0.0);
+    return heights_about(device->height, isnan(device->face_height) ? 0.0 : device->face_height);
+}
+
+CzHeightRange cz_structure_heights(const CzEnd *end) {
+    return end->given ? heights_about(end->crush_height, end->face_height)
+                      : (CzHeightRange){NAN, NAN};
+}
+
+CzMeets cz_part_meets(const CzEnd *end, CzPartKind kind, const CzEnd *opposite, double rise) {
+    if (cz_end_has(opposite, kind))
+        return CZ_MEETS_ITS_KIND;
+    if (opposite->given && opposite->struck_by == CZ_STRUCK_BY_NO_COUPLERS &&
+        kind == CZ_PART_COUPLER)
+        return CZ_PASSES_THROUGH;
+    const CzHeightRange part = cz_part_heights(end, kind),
+                        structure = cz_structure_heights(opposite);
+    if (part.low > structure.high + rise)
+        return CZ_PASSES_OVER;
+    return part.high < structure.low + rise ? CZ_PASSES_UNDER : CZ_STRIKES;
+}

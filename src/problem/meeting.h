@@ -1,0 +1,52 @@
+/* Which part of an end meets which part of the end that it faces.
+ *
+ * A part meets the part of its kind. Where the other end has none, it strikes the bare end
+ * structure there, unless it passes over it, under it, or through it.
+ */
+#ifndef CZ_PROBLEM_MEETING_H
+#define CZ_PROBLEM_MEETING_H
+
+#include "problem/input.h"
+
+/* Kinds of parts that touch; the face is an anti-climber's where there is one, else the bare
+ * end's. */
+typedef enum CzPartKind {
+    CZ_PART_COUPLER,
+    CZ_PART_FACE,
+    CZ_PART_SIDE_BUFFERS,
+    CZ_N_PART
+} CzPartKind;
+
+/* What a part meets. */
+typedef enum CzMeets {
+    CZ_MEETS_ITS_KIND,
+    CZ_STRIKES, /* the bare end structure */
+    CZ_PASSES_OVER,
+    CZ_PASSES_UNDER,
+    CZ_PASSES_THROUGH
+} CzMeets;
+
+/* Heights above rail that a part takes up [m]; NaN where they are not given. */
+typedef struct CzHeightRange {
+    double low, high;
+} CzHeightRange;
+
+/* Whether an end has a part of a kind; for the face, an anti-climber. */
+bool cz_end_has(const CzEnd *end, CzPartKind kind);
+
+/* Heights of the part of a kind, which the end has, and of the bare end structure. Couplers and
+ * side buffers are taken at their axes. */
+CzHeightRange cz_part_heights(const CzEnd *end, CzPartKind kind);
+CzHeightRange cz_structure_heights(const CzEnd *end);
+
+/* What the part of a kind, which the end has, meets at the end opposite, which is higher by `rise`
+ * than in its file; NaN where heights do not matter: at a wall, and between two rigid vehicles. */
+CzMeets cz_part_meets(const CzEnd *end, CzPartKind kind, const CzEnd *opposite, double rise);
+
+/* Whether the part of a kind exists and strikes the bare end structure opposite. */
+static inline bool cz_part_strikes(const CzEnd *end, CzPartKind kind, const CzEnd *opposite,
+                                   double rise) {
+    return cz_end_has(end, kind) && cz_part_meets(end, kind, opposite, rise) == CZ_STRIKES;
+}
+
+#endif

@@ -126,6 +126,8 @@ typedef struct CzEvaluation {
     int n_not_covered; /* requirements of the profile that this program cannot compute; they are not
                           checks and do not count in a verdict */
     const char *const *not_covered; /* borrowed from the evaluator (n_not_covered) */
+    int n_not_applicable; /* scenarios of the profile that do not apply, each with the reason */
+    const char *const *not_applicable; /* borrowed from the evaluator (n_not_applicable) */
     int n_not_judged;
     const CzNotJudged *not_judged; /* obstacles, borrowed from the evaluator (n_not_judged) */
     int n_match;                   /* the last constraints belong to them */

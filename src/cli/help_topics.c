@@ -202,7 +202,11 @@ static void write_profiles(void) {
         {"en15227-2008", "EN 15227:2008+A1:2010; categories C-I, C-II, C-III, C-IV"},
         {"en15227-2020a1",
          "EN 15227:2020+A1:2024, with lower confidence for announced changes; the same categories"},
-        {"us-49cfr238", "49 CFR 238, Tier III and the Tier I alternative"}};
+        {"us-49cfr238", "49 CFR 238, Tier III and the Tier I alternative"},
+        {"tbt3500-2018", "TB/T 3500-2018, multiple units of 200 km/h and above"},
+        {"cn-metro", "Chinese metro contracts"},
+        {"gmrt2100", "GM/RT2100 up to issue 4; categories issue-4, issue-3"},
+        {"collision-limits", "limits of EN 15227 for problems with scenarios of their own"}};
     puts("A profile is a file of limits with clause, source and confidence; a problem takes it by\n"
          "checks: {profile: NAME, category: C-II}. It is looked for as profiles/NAME.yaml beside "
          "the\n"

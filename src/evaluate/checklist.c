@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "evaluate/checks.h"
 #include "evaluate/devices.h"
+#include "evaluate/not_applicable.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -113,19 +114,37 @@ static bool user_sets(const CzChecks *checks, const char *name) {
     return false;
 }
 
+/* Each scenario that the profile asks for and that is not run is not checked. */
+static CzStatus append_not_run(Builder *builder, const CzProfile *profile) {
+    int n_asked;
+    const CzAskedScenario *asked = cz_problem_asked(builder->problem, &n_asked);
+    for (int i = 0; i < n_asked; i++) {
+        if (asked[i].standing != CZ_STANDING_NOT_SELECTED)
+            continue;
+        const CzCheck check = {.name = asked[i].scenario->name,
+                               .scenario = CZ_NO_SCENARIO,
+                               .limit = NAN,
+                               .profile = profile->name,
+                               .clause = asked[i].scenario->clause,
+                               .source = asked[i].scenario->source,
+                               .confidence = asked[i].scenario->confidence,
+                               .missing = "scenario of the profile that checks: {scenarios: ...} "
+                                          "does not select"};
+        CZ_TRY(append(builder, &check));
+    }
+    return CZ_OK;
+}
+
 static CzStatus append_profile(Builder *builder) {
     const CzChecks *checks = &cz_problem_input(builder->problem)->checks;
     const CzProfile *profile = cz_problem_profile(builder->problem);
     if (profile == NULL)
         return CZ_OK;
-    if (profile->category != NULL && checks->category != NULL &&
-        strcmp(profile->category, checks->category) != 0)
-        return cz_problem_fail(builder->problem, &checks->category, builder->error,
-                               "profile '%s' is for category '%s', not '%s'", profile->name,
-                               profile->category, checks->category);
     for (int i = 0; i < profile->n_limits; i++)
         if (!user_sets(checks, profile->limits[i].name))
             CZ_TRY(append_limit(builder, &profile->limits[i], profile->name, false));
+    CZ_TRY(append_not_run(builder, profile));
+    CZ_TRY(cz_not_applicable_list(builder->problem, builder->arena, builder->list, builder->error));
     builder->list->n_not_covered = profile->not_checked.n_text;
     builder->list->not_covered = profile->not_checked.text;
     return CZ_OK;

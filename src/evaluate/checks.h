@@ -40,6 +40,8 @@ typedef struct CzChecklist {
     double aimed_margin;    /* by the aim alone, also where the file has no reserves */
     int n_not_covered;
     const char *const *not_covered; /* of the profile (n_not_covered) */
+    int n_not_applicable;
+    const char *const *not_applicable; /* scenarios of the profile, with the reason (n) */
 } CzChecklist;
 
 /* Lists all checks and targets of a problem. Memory comes from the arena. Statuses: CZ_OK,

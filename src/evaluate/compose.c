@@ -286,6 +286,8 @@ CzStatus cz_compose(const CzEvaluator *evaluator, const CzVehicle *vehicles,
     evaluation->beyond_validity = any_climbed(evaluator, run);
     evaluation->n_not_covered = evaluator->list.n_not_covered;
     evaluation->not_covered = evaluator->list.not_covered;
+    evaluation->n_not_applicable = evaluator->list.n_not_applicable;
+    evaluation->not_applicable = evaluator->list.not_applicable;
     evaluation->n_not_judged = evaluator->obstacles.n;
     evaluation->not_judged = evaluator->obstacles.train;
     CZ_TRY(judge_matches(evaluator, vehicles, run, whole, evaluation, error));

@@ -21,6 +21,7 @@ set(CZ_SOURCES_evaluate
     match.c
     metric.c
     metric_values.c
+    not_applicable.c
     obstacle.c
     place.c
     result_units.c

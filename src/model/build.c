@@ -164,6 +164,8 @@ static CzStatus find_perturbed(CzModel *model, CzError *error) {
     model->perturbed = -1;
     if (name == NULL)
         return CZ_OK;
+    if (strcmp(name, CZ_FIRST_COUPLED) == 0)
+        model->perturbed = model->colliding - 1; /* -1: the train has one car */
     for (int i = 0; i < model->n_car - 1; i++)
         if (i != model->colliding && strcmp(model->interface_name[i], name) == 0)
             model->perturbed = i;

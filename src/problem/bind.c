@@ -250,6 +250,49 @@ static void bind_list(CzBinder binder, const Record *record, const CzKey *key, c
     *(int *)(void *)(record->memory + key->n_offset) = items != NULL ? list->n_entry : 0;
 }
 
+/* A record with its key as its first value, `name`; NULL without memory. */
+static const CzNode *name_record(CzArena *arena, const CzEntry *entry, const CzTrail *trail) {
+    const CzNode *node = entry->value;
+    if (node->kind != CZ_NODE_MAPPING)
+        return node;
+    CzNode *named = cz_node_copy(arena, node, 1);
+    if (named == NULL)
+        return NULL;
+    const CzNode *name = cz_node_name(arena, entry->key->text, entry->key);
+    return cz_node_append(arena, named, "name", entry->key, name, trail) ? named : NULL;
+}
+
+/* Reads records by name as a list of records with names. */
+static void bind_named(CzBinder binder, const Record *record, const CzKey *key,
+                       const CzEntry *entry, const CzTrail *trail) {
+    CzReader *reader = binder.reader;
+    const CzNode *mapping = cz_take_part(reader, binder.tree, entry->value, trail);
+    if (mapping == NULL)
+        return;
+    if (mapping->kind != CZ_NODE_MAPPING) {
+        cz_mistake(&reader->mistakes, mapping, trail,
+                   "'%s' needs a record for each name, {NAME: {...}}, but this is %s", key->stem,
+                   cz_node_what(mapping));
+        reader->has_holes = true;
+        return;
+    }
+    CzNode *list = cz_node_copy(&reader->arena, mapping, 0);
+    for (int i = 0; list != NULL && i < list->n_entry; i++) {
+        CzEntry *item = &list->entry[i];
+        item->trail = cz_entry_trail(item, trail);
+        item->value = name_record(&reader->arena, item, item->trail);
+        item->key = NULL;
+        if (item->value == NULL)
+            return;
+    }
+    if (list == NULL)
+        return;
+    list->kind = CZ_NODE_LIST;
+    CzEntry listed = *entry;
+    listed.value = list;
+    bind_list(binder, record, key, &listed, trail);
+}
+
 static void bind_texts(CzBinder binder, const Record *record, const CzKey *key,
                        const CzEntry *entry, const CzTrail *trail) {
     const CzNode *list = entry->value;
@@ -306,6 +349,9 @@ static void bind_value(CzBinder binder, const Record *record, const CzKey *key, 
     case CZ_KEY_STAGES:
     case CZ_KEY_LIST:
         bind_list(binder, record, key, entry, trail);
+        break;
+    case CZ_KEY_NAMED:
+        bind_named(binder, record, key, entry, trail);
         break;
     case CZ_KEY_TEXTS:
         bind_texts(binder, record, key, entry, trail);

@@ -62,6 +62,7 @@ typedef struct CzTexts {
 #define CZ_LIST(type, stem, child, presence, doc)                                                  \
     child *stem;                                                                                   \
     int n_##stem;
+#define CZ_NAMED(type, stem, child, presence, doc) CZ_LIST(type, stem, child, presence, doc)
 #define CZ_TEXTS(type, stem, presence, doc) CzTexts stem;
 #include "problem/keys.def"
 

@@ -57,6 +57,9 @@ const char *cz_track_word(CzTrack track) {
 #define CZ_LIST(type, stem, inside, presence, doc)                                                 \
     {FIELD(CZ_KEY_LIST, type, stem, presence, doc), .child = &cz_records[CZ_RECORD_##inside],      \
      .n_offset = offsetof(type, n_##stem)},
+#define CZ_NAMED(type, stem, inside, presence, doc)                                                \
+    {FIELD(CZ_KEY_NAMED, type, stem, presence, doc), .child = &cz_records[CZ_RECORD_##inside],     \
+     .n_offset = offsetof(type, n_##stem)},
 #define CZ_TEXTS(type, stem, presence, doc) {FIELD(CZ_KEY_TEXTS, type, stem, presence, doc)},
 #include "problem/keys.def"
 #undef FIELD

@@ -28,6 +28,9 @@ static inline const CzTrain *cz_input_train(const CzInput *input, const CzScenar
     return NULL;
 }
 
+/* Perturbed interface of a scenario: the first inner one of the train behind. */
+#define CZ_FIRST_COUPLED "first-coupled"
+
 /* The effective track: rigid where no vehicle has wheels. */
 CzTrack cz_problem_track(const CzProblem *problem);
 /* Its word in a file. */
@@ -234,9 +237,26 @@ const struct CzSource *cz_problem_measured_file(const CzProblem *problem, int nu
  */
 void cz_problem_write_resolved_there(const CzProblem *problem, FILE *stream);
 
-/* Reads a profile of limits: NAME.yaml in profiles/ beside the problem file, then in the share
- * folder. Borrowed from the problem, read with it when the problem names one; NULL when it names
- * none. */
+/* The profile of the problem: NAME.yaml in profiles/ beside the problem file, then in the share
+ * folder. It has the limits and scenarios of the problem's category. Borrowed; NULL for none. */
 const CzProfile *cz_problem_profile(const CzProblem *problem);
+
+/* Why a scenario of a profile is run, or not. */
+typedef enum CzStanding {
+    CZ_STANDING_RUN,          /* as the profile has it */
+    CZ_STANDING_REPLACED,     /* by one of the file, of its name or family */
+    CZ_STANDING_NOT_SELECTED, /* by `checks: {scenarios: ...}` */
+    CZ_STANDING_NOT_APPLICABLE
+} CzStanding;
+
+/* A scenario of the profile in this problem. Borrowed from the problem. */
+typedef struct CzAskedScenario {
+    const CzProfileScenario *scenario;
+    CzStanding standing;
+    const char *why; /* it does not apply, or what replaces it; NULL otherwise */
+} CzAskedScenario;
+
+/* The scenarios of the problem's profile: those of the category, then those that do not apply. */
+const CzAskedScenario *cz_problem_asked(const CzProblem *problem, int *n_asked);
 
 #endif

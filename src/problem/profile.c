@@ -1,20 +1,21 @@
-/* Reads profiles of limits. */
-#include "problem/reading.h"
+/* Finds and reads the file of a profile. */
+#include "problem/profile.h"
 
 #include <dirent.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/suggest.h"
 #include "base/text.h"
+#include "problem/rules.h"
 #include "tree/load.h"
 #include "tree/merge.h"
 
 enum { LONGEST_NAME = 96 };
 
-/* Suggests the names of all profiles in a folder. */
-static void suggest_profiles(CzSuggestion *suggestion, const char *folder, const char *name) {
-    char path[512], known[LONGEST_NAME];
+/* ---- finding ---- */
+
+void cz_profile_each(const char *folder, CzProfileName *visit, void *data) {
+    char path[512], name[LONGEST_NAME];
     snprintf(path, sizeof path, "%s/profiles", folder);
     DIR *directory = opendir(path);
     if (directory == NULL)
@@ -23,18 +24,27 @@ static void suggest_profiles(CzSuggestion *suggestion, const char *folder, const
         const char *end = strstr(file->d_name, ".yaml");
         if (end == NULL || end[5] != '\0' || end - file->d_name >= LONGEST_NAME)
             continue;
-        snprintf(known, sizeof known, "%.*s", (int)(end - file->d_name), file->d_name);
-        cz_suggest(suggestion, name, known);
+        snprintf(name, sizeof name, "%.*s", (int)(end - file->d_name), file->d_name);
+        visit(name, data);
     }
     closedir(directory);
 }
 
-/* Path of the profile that `named` names; NULL with a mistake when there is none. */
-static const char *locate(CzReader *reader, const CzPlace *named) {
-    const char *name = named->value->text;
-    const char *folders[] = {named->value->source->folder, reader->share_folder};
+typedef struct Sought {
+    CzSuggestion *nearest;
+    const char *name;
+} Sought;
+
+static void suggest(const char *name, void *data) {
+    const Sought *sought = data;
+    cz_suggest(sought->nearest, sought->name, name);
+}
+
+const char *cz_profile_find(CzReader *reader, const char *folder, const char *name,
+                            CzSuggestion *nearest) {
+    const char *folders[] = {folder, reader->share_folder};
+    Sought sought = {nearest, name};
     char file[LONGEST_NAME + 20];
-    CzSuggestion suggestion = {0};
     snprintf(file, sizeof file, "profiles/%.*s.yaml", LONGEST_NAME, name);
     for (int i = 0; i < 2; i++) {
         const char *path =
@@ -42,104 +52,150 @@ static const char *locate(CzReader *reader, const CzPlace *named) {
         if (path != NULL && cz_path_exists(path))
             return path;
         if (folders[i] != NULL)
-            suggest_profiles(&suggestion, folders[i], name);
+            cz_profile_each(folders[i], suggest, &sought);
     }
-    cz_mistake(&reader->mistakes, named->value, named->trail,
-               "there is no profile '%.96s': no file profiles/%.96s.yaml", name, name);
-    cz_mistake_suggest(&reader->mistakes, &suggestion);
     return NULL;
 }
 
-/* ---- categories ---- */
+/* ---- reading ---- */
 
-/* The categories of a profile, for did-you-mean. */
-static void suggest_categories(CzSuggestion *suggestion, const CzProfile *profile,
-                               const char *category, bool *is_known, bool *has_any) {
-    if (profile->category != NULL) {
-        *has_any = true;
-        *is_known |= strcmp(profile->category, category) == 0;
-        cz_suggest(suggestion, category, profile->category);
-    }
-    for (int i = 0; i < profile->n_limits; i++) {
-        const CzTexts *categories = &profile->limits[i].categories;
-        *has_any |= categories->n_text > 0;
-        *is_known |= cz_text_is_among(category, categories->n_text, categories->text);
-        for (int k = 0; k < categories->n_text; k++)
-            cz_suggest(suggestion, category, categories->text[k]);
-    }
-}
-
-static bool check_category(CzProblem *problem, const CzProfile *profile, const CzPlace *named) {
-    CzReader *reader = &problem->reader;
-    const CzChecks *checks = &problem->input.checks;
-    CzSuggestion suggestion = {0};
-    bool is_known = false, has_any = false;
-    const char *category = checks->category != NULL ? checks->category : "";
-    suggest_categories(&suggestion, profile, category, &is_known, &has_any);
-    const CzPlace *place = cz_places_find(&problem->places, &checks->category);
-    if (checks->category == NULL && has_any) {
-        cz_mistake(&reader->mistakes, named->value, named->trail,
-                   "profile '%.96s' has limits by category; 'checks' must name one",
-                   named->value->text);
-    } else if (checks->category != NULL && !has_any) {
-        cz_mistake(&reader->warnings, place->value, place->trail,
-                   "profile '%.96s' has no categories: remove '%.96s', all its limits apply",
-                   named->value->text, category);
-    } else if (checks->category != NULL && !is_known) {
-        cz_mistake(&reader->mistakes, place->value, place->trail,
-                   "profile '%.96s' has no category '%.96s'", named->value->text, category);
-        cz_mistake_suggest(&reader->mistakes, &suggestion);
-    }
-    return !has_any || is_known;
-}
-
-static bool holds_for(const CzLimit *limit, const char *category) {
-    return limit->categories.n_text == 0 ||
-           (category != NULL &&
-            cz_text_is_among(category, limit->categories.n_text, limit->categories.text));
-}
-
-/* The profile's tree without the limits of other categories; NULL without memory. */
-static const CzNode *keep_category(CzReader *reader, const CzNode *top, const CzProfile *profile,
-                                   const char *category) {
-    const CzEntry *limits = cz_node_find(top, "limits");
-    if (limits == NULL)
-        return top;
-    CzNode *list = cz_node_copy(&reader->arena, limits->value, 0);
-    if (list == NULL)
-        return NULL;
-    list->n_entry = 0;
-    for (int k = 0; k < profile->n_limits; k++)
-        if (holds_for(&profile->limits[k], category))
-            list->entry[list->n_entry++] = limits->value->entry[k];
-    return cz_node_with(&reader->arena, top, limits, list);
-}
-
-static void bind_profile(CzProblem *problem, const CzNode *top, const CzPlace *named) {
-    CzReader *reader = &problem->reader;
+/* Binds a profile's tree; its partners are trains of a problem and are read there. */
+static void bind(CzProblem *problem, const CzNode *top, CzProfile *profile) {
     const CzTree no_parts = {0};
-    const CzBinder binder = cz_problem_binder(problem, &no_parts);
-    const CzRecord *record = &cz_records[CZ_RECORD_CzProfile];
-    CzProfile all = {0};
-    cz_bind_record(binder, record, top, &cz_no_trail, &all);
-    if (!check_category(problem, &all, named))
-        return;
-    const CzNode *kept = keep_category(reader, top, &all, problem->input.checks.category);
-    if (kept != NULL)
-        cz_bind_record(binder, record, kept, &cz_no_trail, &problem->profile);
+    const CzNode *bound = cz_node_without(&problem->reader.arena, top, "partners", 0);
+    if (bound != NULL)
+        cz_bind_record(cz_problem_binder(problem, &no_parts), &cz_records[CZ_RECORD_CzProfile],
+                       bound, &cz_no_trail, profile);
 }
 
-void cz_profile_read(CzProblem *problem) {
+CzProfileFile cz_profile_load(CzProblem *problem, const char *path, const CzNode *named) {
     CzReader *reader = &problem->reader;
-    const CzChecks *checks = &problem->input.checks;
-    if (!checks->given || checks->profile == NULL)
-        return;
-    const CzPlace named = *cz_places_find(&problem->places, &checks->profile);
-    const char *path = locate(reader, &named);
-    const CzNode *top = path != NULL ? cz_load_file(reader, path, named.value) : NULL;
+    CzProfileFile file = {0};
+    const CzNode *top = cz_load_file(reader, path, named);
+    CzProfile *whole = cz_arena_allocate(&reader->arena, 1, sizeof *whole);
+    if (top == NULL || whole == NULL)
+        return file;
+    for (CzSource *source = reader->sources.first; source != NULL; source = source->next)
+        source->is_general |= source == top->source;
+    file.top = cz_node_without(&reader->arena, top, "schema", 0);
+    file.whole = whole;
+    if (file.top == NULL)
+        return file;
+    bind(problem, file.top, whole);
+    const CzRules rules = cz_rules_of(problem);
+    cz_rules_check_profile(&rules, whole);
+    return file;
+}
+
+/* ---- one category ---- */
+
+bool cz_profile_includes(const CzTexts *categories, const char *category) {
+    return categories->n_text == 0 ||
+           (category != NULL && cz_text_is_among(category, categories->n_text, categories->text));
+}
+
+/* The entry of a profile's tree with those items of its list that are of a category; `categories`
+ * returns those of an item. NULL without memory. */
+static CzNode *filter(CzReader *reader, const CzEntry *list, const CzProfile *whole,
+                      const CzTexts *(*categories)(const CzProfile *, int), const char *category) {
+    CzNode *kept = cz_node_copy(&reader->arena, list->value, 0);
+    if (kept == NULL)
+        return NULL;
+    kept->n_entry = 0;
+    for (int i = 0; i < list->value->n_entry; i++)
+        if (cz_profile_includes(categories(whole, i), category))
+            kept->entry[kept->n_entry++] = list->value->entry[i];
+    return kept;
+}
+
+static const CzTexts *categories_of_limit(const CzProfile *whole, int i) {
+    return &whole->limits[i].categories;
+}
+
+static const CzTexts *categories_of_scenario(const CzProfile *whole, int i) {
+    return &whole->scenarios[i].categories;
+}
+
+/* An item of a list of scenarios with the values of the earlier one that it is like. */
+static const CzNode *take_like(CzReader *reader, const CzNode *list, int item) {
+    const CzNode *scenario = list->entry[item].value;
+    const CzEntry *like = cz_node_find(scenario, "like");
+    CzSuggestion nearest = {0};
+    if (like == NULL || like->value->kind != CZ_NODE_TEXT)
+        return scenario;
+    for (int i = 0; i < item; i++) {
+        const char *name = cz_node_find_text(list->entry[i].value, "name");
+        if (name != NULL && strcmp(name, like->value->text) == 0)
+            return cz_inherit(&reader->arena, scenario, list->entry[i].value,
+                              "name family like categories elsewhere");
+        if (name != NULL)
+            cz_suggest(&nearest, like->value->text, name);
+    }
+    cz_mistake(&reader->mistakes, like->value, NULL,
+               "there is no earlier scenario '%.48s' in this category", like->value->text);
+    cz_mistake_suggest(&reader->mistakes, &nearest);
+    return scenario;
+}
+
+const CzNode *cz_profile_scenario_nodes(CzProblem *problem, const CzProfileFile *file,
+                                        const char *category) {
+    CzReader *reader = &problem->reader;
+    const CzEntry *written = cz_node_find_list(file->top, "scenarios");
+    if (written == NULL || file->whole->n_scenarios == 0)
+        return NULL;
+    CzNode *list = filter(reader, written, file->whole, categories_of_scenario, category);
+    for (int i = 0; list != NULL && i < list->n_entry; i++) {
+        list->entry[i].value = take_like(reader, list, i);
+        if (list->entry[i].value == NULL)
+            return NULL;
+    }
+    return list;
+}
+
+bool cz_profile_in_category(CzProblem *problem, const CzProfileFile *file, const char *category,
+                            CzProfile *profile) {
+    CzArena *arena = &problem->reader.arena;
+    const CzNode *top = file->top, *scenarios = cz_profile_scenario_nodes(problem, file, category);
+    const CzEntry *written = cz_node_find_list(top, "limits");
+    if (written != NULL && file->whole->n_limits > 0)
+        top = cz_node_with(
+            arena, top, written,
+            filter(&problem->reader, written, file->whole, categories_of_limit, category));
+    written = top != NULL ? cz_node_find_list(top, "scenarios") : NULL;
+    if (written != NULL && scenarios != NULL)
+        top = cz_node_with(arena, top, written, scenarios);
     if (top == NULL)
+        return false;
+    bind(problem, top, profile);
+    const CzRules rules = cz_rules_of(problem);
+    cz_rules_check_profile_scenarios(&rules, profile);
+    return true;
+}
+
+/* ---- speeds ---- */
+
+double cz_profile_speed(const CzProfileScenario *scenario, double line_speed) {
+    double speed = scenario->speed;
+    if (isnan(speed)) {
+        speed = line_speed - scenario->below_line_speed;
+        if (scenario->most_speed < speed)
+            speed = scenario->most_speed;
+    }
+    return speed * scenario->speed_factor;
+}
+
+void cz_profile_speed_text(const CzProfileScenario *scenario, char text[120]) {
+    char most[60] = "", factor[40] = "";
+    const double kmh = 1 / 3.6;
+    if (!isnan(scenario->speed)) {
+        snprintf(text, 120, "%s",
+                 CZ_IN_UNIT(scenario->speed * scenario->speed_factor, "km/h", kmh));
         return;
-    const CzNode *profile = cz_node_without(&reader->arena, top, "schema", 0);
-    if (profile != NULL)
-        bind_profile(problem, profile, &named);
+    }
+    if (!isnan(scenario->most_speed))
+        snprintf(most, sizeof most, ", at most %s", CZ_IN_UNIT(scenario->most_speed, "km/h", kmh));
+    if (scenario->speed_factor != 1)
+        snprintf(factor, sizeof factor, ", times %g", scenario->speed_factor);
+    snprintf(text, 120, "line speed less %s%s%s",
+             CZ_IN_UNIT(scenario->below_line_speed, "km/h", kmh), most, factor);
 }

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "problem/acts.h"
 #include "problem/changes.h"
+#include "problem/profile.h"
 #include "problem/usual.h"
 #include "text/yaml.h"
 #include "tree/load.h"
@@ -62,10 +63,10 @@ static void read_changes(const CzRules *rules, CzProblem *problem) {
 /* Reads the records of a tree with its settings, and everything that follows from them. */
 static void read_records(CzProblem *problem) {
     CzReader *reader = &problem->reader;
+    cz_profile_expand(problem);
     cz_problem_bind(problem, &problem->tree);
     if (reader->arena.out_of_memory)
         return;
-    cz_profile_read(problem);
     cz_measured_read(problem);
     const CzRules rules = cz_rules_of(problem);
     cz_rules_check_collision(&rules);
@@ -85,11 +86,11 @@ static void read_tree(CzProblem *problem, const CzNode *top, const CzProblemOpti
     CzReader *reader = &problem->reader;
     CzSource *first = reader->sources.first;
     first->is_general = strstr(first->line[0], CZ_RESOLVED_MARK) != NULL;
-    problem->tree = cz_load_tree(reader, top);
-    if (problem->tree.root == NULL || reader->arena.out_of_memory)
+    problem->written = cz_load_tree(reader, top);
+    if (problem->written.root == NULL || reader->arena.out_of_memory)
         return;
     problem->setting =
-        cz_settings_gather(reader, problem->tree.root, options != NULL ? options->n_set : 0,
+        cz_settings_gather(reader, problem->written.root, options != NULL ? options->n_set : 0,
                            options != NULL ? options->set : NULL, &problem->n_setting);
     if (problem->setting != NULL)
         read_records(problem);
@@ -268,4 +269,9 @@ CzTrack cz_problem_track(const CzProblem *problem) {
 
 const CzProfile *cz_problem_profile(const CzProblem *problem) {
     return problem->profile.given ? &problem->profile : NULL;
+}
+
+const CzAskedScenario *cz_problem_asked(const CzProblem *problem, int *n_asked) {
+    *n_asked = problem->n_asked;
+    return problem->asked;
 }

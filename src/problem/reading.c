@@ -44,6 +44,7 @@ CzProblem *cz_problem_create_again(const CzProblem *problem, CzReadStep step, in
     again->origin = problem;
     again->step = step;
     again->n_added = n_more;
+    again->written = problem->written;
     again->tree = problem->tree;
     again->curves = problem->curves;
     return again;
@@ -52,6 +53,9 @@ CzProblem *cz_problem_create_again(const CzProblem *problem, CzReadStep step, in
 void cz_problem_take_files(CzProblem *again, const CzProblem *problem) {
     memcpy(again->hash, problem->hash, sizeof again->hash);
     again->profile = problem->profile;
+    again->whole_profile = problem->whole_profile;
+    again->n_asked = problem->n_asked;
+    again->asked = problem->asked;
     again->measured = problem->measured;
     again->reader.sources.first = problem->reader.sources.first;
 }
@@ -147,6 +151,19 @@ int cz_input_find_scenario(const CzInput *input, const char *name, CzSuggestion 
         }
     }
     return -1;
+}
+
+bool cz_profile_has_scenario(const CzProfile *profile, const char *name, CzSuggestion *nearest) {
+    for (int i = 0; i < profile->n_scenarios; i++) {
+        const char *const known[2] = {profile->scenarios[i].name, profile->scenarios[i].family};
+        for (int k = 0; k < 2; k++) {
+            if (known[k] != NULL && strcmp(known[k], name) == 0)
+                return true;
+            if (known[k] != NULL)
+                cz_suggest(nearest, name, known[k]);
+        }
+    }
+    return false;
 }
 
 void cz_problem_place(const CzProblem *problem, const void *field, CzError *error) {

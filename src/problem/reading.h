@@ -24,7 +24,8 @@ typedef struct CzProblemText {
 
 struct CzProblem {
     CzReader reader;
-    CzTree tree; /* as in the files, before settings */
+    CzTree written; /* as in the files, before settings */
+    CzTree tree;    /* with the partners and scenarios of the profile, before settings */
     CzPlaces places;
     const CzReadCurve *curves; /* the curve files that were read, the last one first */
     const char *file;
@@ -38,12 +39,15 @@ struct CzProblem {
     const CzSetting *setting; /* of the file, then of the options (n_setting) */
     CzInput input;
     int n_vehicle;
-    CzVehicle *vehicle; /* those of all trains (n_vehicle) */
-    CzProfile profile;
-    CzMeasured *measured; /* one per match; NULL while they are not read */
-    CzTargets *targets;   /* one per variable; NULL while they are not found */
-    CzProblem **changed;  /* those of scenarios with changes, some of them shared with the scenario
-                             before; NULL where there are none (n_scenarios) */
+    CzVehicle *vehicle;             /* those of all trains (n_vehicle) */
+    CzProfile profile;              /* in its category, with the overrides of the file */
+    const CzProfile *whole_profile; /* of all categories; NULL without a profile */
+    int n_asked;
+    const CzAskedScenario *asked; /* of the profile (n_asked) */
+    CzMeasured *measured;         /* one per match; NULL while they are not read */
+    CzTargets *targets;           /* one per variable; NULL while they are not found */
+    CzProblem **changed; /* those of scenarios with changes, some of them shared with the scenario
+                            before; NULL where there are none (n_scenarios) */
 };
 
 /* An empty problem; freed by cz_problem_free. NULL without memory. */
@@ -67,9 +71,6 @@ CzBinder cz_problem_binder(CzProblem *problem, const CzTree *tree);
 /* Applies the settings and reads the input of a tree. */
 void cz_problem_bind(CzProblem *problem, const CzTree *tree);
 
-/* Reads the profile that the problem names, with the limits of its category (profile.c). */
-void cz_profile_read(CzProblem *problem);
-
 /* Reads the time histories that the problem's matches name, as curve files are (measured.c). Times
  * must rise from line to line, as in the channels.csv of `run`, which can be read as well. A value
  * without a unit is in that of its channel. */
@@ -78,5 +79,8 @@ void cz_measured_read(CzProblem *problem);
 /* The scenario of a name, or the first of a family of that name; -1 when there is none, with the
  * nearest word. */
 int cz_input_find_scenario(const CzInput *input, const char *name, CzSuggestion *nearest);
+
+/* Whether a profile has a scenario or family of a name, in any category. */
+bool cz_profile_has_scenario(const CzProfile *profile, const char *name, CzSuggestion *nearest);
 
 #endif

@@ -62,6 +62,11 @@ bool cz_rule_is_written(const CzRules *rules, const void *field) {
     return place != NULL && place->size == 0;
 }
 
+bool cz_rule_is_general(const CzRules *rules, const void *field) {
+    const CzPlace *place = find_place(rules, field);
+    return place != NULL && place->node->source->is_general;
+}
+
 const char *cz_rule_text(char text[48], double si, const char *unit, double unit_si) {
     snprintf(text, 48, "%s %s", CZ_SHORT(si / unit_si), unit);
     return text;

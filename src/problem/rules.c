@@ -45,7 +45,7 @@ static void check_payload(const CzRules *rules) {
     if (payload != NULL && share == NULL)
         cz_rule_warning(rules, payload,
                         "no effect: no scenario has a 'payload_share', so no payload is on board");
-    if (payload == NULL && share != NULL && *share > 0)
+    if (payload == NULL && share != NULL && *share > 0 && !cz_rule_is_general(rules, share))
         cz_rule_warning(rules, share, "no effect: no vehicle has a 'payload'");
 }
 

@@ -36,6 +36,9 @@ void cz_rule_absent(const CzRules *rules, const void *field, const char *format,
 /* Whether a field was written in a file, rightly or not. */
 bool cz_rule_is_written(const CzRules *rules, const void *field);
 
+/* Whether a field was written in a file for more problems than this one, such as a profile. */
+bool cz_rule_is_general(const CzRules *rules, const void *field);
+
 /* Text of a number with its unit for a sentence, such as "300 mm". */
 const char *cz_rule_text(char text[48], double si, const char *unit, double unit_si);
 #define CZ_IN_UNIT(si, unit, unit_si) cz_rule_text((char[48]){0}, (si), (unit), (unit_si))
@@ -51,6 +54,13 @@ void cz_rules_check_trains(const CzRules *rules);
 void cz_rules_check_scenarios(const CzRules *rules);
 /* Fills the targets of each variable (n_variables), which are allocated with malloc. */
 void cz_rules_check_design(const CzRules *rules, CzTargets *targets);
+/* A word that is not in the list makes limits PROVISIONAL; it may be a typing error of `user`,
+ * which is a warning only. */
+void cz_rules_check_confidence(const CzRules *rules, const char *const *confidence);
+/* A profile as written, and the scenarios of one category with the values of those they are like.
+ */
+void cz_rules_check_profile(const CzRules *rules, const CzProfile *profile);
+void cz_rules_check_profile_scenarios(const CzRules *rules, const CzProfile *profile);
 void cz_rules_check_fit(const CzRules *rules);
 
 void cz_rules_check_scenario_names(const CzRules *rules, const CzTexts *names);

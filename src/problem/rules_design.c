@@ -21,22 +21,8 @@ void cz_rules_check_scenario_names(const CzRules *rules, const CzTexts *names) {
     }
 }
 
-/* A word that is not in the list makes limits PROVISIONAL; it may be a typing error of `user`,
- * which is a warning only. */
-static void check_confidence(const CzRules *rules, const char *const *confidence) {
-    static const char *const words[] = {"S1", "S2", "X", "M1", "M2", "M3", "user"};
-    CzSuggestion suggestion = {0};
-    if (*confidence == NULL ||
-        CZ_FIND_TEXT(*confidence, words, sizeof words / sizeof *words, &suggestion) >= 0)
-        return;
-    cz_rule_warning(rules, confidence,
-                    "confidence '%.40s' is not one of S1, S2, X, M1, M2, M3 and user: a pass is "
-                    "PROVISIONAL at most",
-                    *confidence);
-    cz_mistake_suggest(rules->warnings, &suggestion);
-}
-
-static void check_limits(const CzRules *rules, const CzLimit *limits, int n_limit) {
+static void check_limits(const CzRules *rules, const CzLimit *limits, int n_limit,
+                         bool is_profile) {
     for (int i = 0; i < n_limit; i++) {
         const CzLimit *limit = &limits[i];
         const bool has_min = cz_rule_is_written(rules, &limit->min);
@@ -44,9 +30,26 @@ static void check_limits(const CzRules *rules, const CzLimit *limits, int n_limi
         if (limit->given && has_min == has_max)
             cz_rule_broken(rules, has_min ? (const void *)&limit->min : limit,
                            "a limit needs exactly one of 'max' and 'min'");
-        check_confidence(rules, &limit->confidence);
-        cz_rules_check_scenario_names(rules, &limit->scenarios);
+        cz_rules_check_confidence(rules, &limit->confidence);
+        if (!is_profile)
+            cz_rules_check_scenario_names(rules, &limit->scenarios);
     }
+}
+
+/* Scenarios that limits of the profile name are those of the profile, in any category, or of the
+ * problem. */
+static void check_profile_names(const CzRules *rules) {
+    const CzProfile *whole = rules->problem->whole_profile;
+    for (int i = 0; whole != NULL && i < whole->n_limits; i++)
+        for (int k = 0; k < whole->limits[i].scenarios.n_text; k++) {
+            const char *const *name = &whole->limits[i].scenarios.text[k];
+            CzSuggestion nearest = {0};
+            if (cz_profile_has_scenario(whole, *name, &nearest) ||
+                cz_input_find_scenario(rules->input, *name, &nearest) >= 0)
+                continue;
+            cz_rule_broken(rules, name, "there is no scenario '%.48s'", *name);
+            cz_mistake_suggest(rules->mistakes, &nearest);
+        }
 }
 
 /* ---- variables ---- */
@@ -289,9 +292,10 @@ static void check_variable(const CzRules *rules, const CzVariable *variable, CzT
 
 void cz_rules_check_design(const CzRules *rules, CzTargets *targets) {
     const CzInput *input = rules->input;
-    check_limits(rules, input->checks.limits, input->checks.n_limits);
-    check_limits(rules, rules->problem->profile.limits, rules->problem->profile.n_limits);
-    check_limits(rules, input->optimise.targets, input->optimise.n_targets);
+    check_limits(rules, input->checks.limits, input->checks.n_limits, false);
+    check_limits(rules, rules->problem->profile.limits, rules->problem->profile.n_limits, true);
+    check_limits(rules, input->optimise.targets, input->optimise.n_targets, false);
+    check_profile_names(rules);
     for (int i = 0; i < input->checks.n_limits; i++)
         if (input->checks.limits[i].categories.n_text > 0)
             cz_rule_broken(rules, &input->checks.limits[i].categories,

@@ -258,6 +258,13 @@ static void check_interface(const CzRules *rules, const CzScenario *scenario,
                            "a perturbation needs 'perturbed_interface', such as A3-A4");
         return;
     }
+    if (strcmp(scenario->perturbed_interface, CZ_FIRST_COUPLED) == 0) {
+        if (pair[0]->n_vehicles < 2)
+            cz_rule_broken(rules, &scenario->perturbed_interface,
+                           "train '%.48s' has one vehicle and no coupled interface",
+                           name_of(pair[0]->name));
+        return;
+    }
     for (int t = 0; t < 2; t++)
         for (int i = 1; i < pair[t]->n_vehicles; i++) {
             const char *behind = pair[t]->vehicles[i - 1].name, *ahead = pair[t]->vehicles[i].name;

@@ -16,6 +16,8 @@ set(CZ_SOURCES_problem
     places.c
     problem_bytes.c
     profile.c
+    profile_expand.c
+    profile_partners.c
     read.c
     reading.c
     reduce_curve.c
@@ -26,6 +28,7 @@ set(CZ_SOURCES_problem
     rules_end.c
     rules_fit.c
     rules_names.c
+    rules_profile.c
     rules_train.c
     rules_uncertainty.c
     strokes.c
@@ -34,4 +37,5 @@ set(CZ_SOURCES_problem
     write_keys.c
     write_resolved.c
     write_schema.c
+    write_text.c
 )

@@ -48,7 +48,8 @@ void cz_usual_write(FILE *stream, const CzKey *key) {
 void cz_usual_check(CzMistakes *warnings, const CzPlaces *places) {
     for (int k = 0; k < places->n_place; k++) {
         const CzPlace *place = &places->place[k];
-        if (place->unit == NULL || place->value->kind != CZ_NODE_TEXT)
+        if (place->unit == NULL || place->value->kind != CZ_NODE_TEXT ||
+            place->node->source->is_general)
             continue;
         for (int i = 0; i < 2 && place->key->usual[i].unit != NULL; i++)
             warn(warnings, place, &place->key->usual[i]);

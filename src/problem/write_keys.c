@@ -48,6 +48,9 @@ static void write_kind(FILE *stream, const CzKey *key) {
     case CZ_KEY_LIST:
         fprintf(stream, "list of %s", key->child->name);
         break;
+    case CZ_KEY_NAMED:
+        fprintf(stream, "%s by name", key->child->name);
+        break;
     case CZ_KEY_TABLE:
         fputs("points: {columns, points, basis, strokes}, or {file, basis, strokes} with columns, "
               "decimal, flip, zero, scale, from_mm, to_mm where the file needs them",

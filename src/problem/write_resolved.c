@@ -4,12 +4,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "base/error.h"
 #include "base/number.h"
 #include "problem/acts.h"
 #include "problem/changes.h"
+#include "problem/write_text.h"
 
 enum { COMMENT_COLUMN = 44 };
 
@@ -22,40 +22,6 @@ typedef struct {
 
 static void write_record(const Writer *writer, const CzRecord *record, const char *memory,
                          int indent, const char *dash);
-
-/* ---- texts ---- */
-
-/* Whether a text needs no quotes, for this reader and for others that read some words as flags. */
-static bool is_plain(const char *text) {
-    static const char *const words[] = {"null", "true", "false", "yes", "no",
-                                        "on",   "off",  "y",     "n"};
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strcasecmp(text, words[i]) == 0)
-            return false;
-    const bool has_letter =
-        (text[0] >= 'a' && text[0] <= 'z') || (text[0] >= 'A' && text[0] <= 'Z');
-    return has_letter && text[strlen(text) - 1] != ' ' &&
-           text[strspn(text,
-                       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./ ")] ==
-               '\0';
-}
-
-static void write_text(FILE *stream, const char *text) {
-    if (is_plain(text)) {
-        fputs(text, stream);
-        return;
-    }
-    fputc('"', stream);
-    for (const char *c = text; *c != '\0'; c++) {
-        if (*c == '"' || *c == '\\')
-            fprintf(stream, "\\%c", *c);
-        else if ((unsigned char)*c < 0x20)
-            fprintf(stream, "\\x%02x", (unsigned)(unsigned char)*c);
-        else
-            fputc(*c, stream);
-    }
-    fputc('"', stream);
-}
 
 /* ---- origins ---- */
 
@@ -128,7 +94,7 @@ static bool write_value(const Writer *writer, const CzKey *key, const char *fiel
     int column = write_key(writer, key->stem, suffix, indent, dash);
     column += fprintf(writer->stream, " ") + (int)strlen(value);
     if (key->kind == CZ_KEY_TEXT)
-        write_text(writer->stream, value);
+        cz_write_yaml_text(writer->stream, value);
     else
         fputs(value, writer->stream);
     write_origin(writer, key, field, column);
@@ -140,11 +106,18 @@ static void write_texts(const Writer *writer, const CzKey *key, const CzTexts *t
     column += fprintf(writer->stream, " [");
     for (int i = 0; i < texts->n_text; i++) {
         fputs(i > 0 ? ", " : "", writer->stream);
-        write_text(writer->stream, texts->text[i]);
+        cz_write_yaml_text(writer->stream, texts->text[i]);
         column += 2 + (int)strlen(texts->text[i]);
     }
     fputc(']', writer->stream);
     write_origin(writer, key, texts, column);
+}
+
+/* Whether there is a list of texts to write: one without texts when the file has it. */
+static bool has_texts(const Writer *writer, const CzKey *key, const char *field) {
+    const CzPlace *place = cz_places_find(&writer->problem->places, field);
+    return ((const CzTexts *)(const void *)field)->n_text > 0 ||
+           (place != NULL && place->address == field && place->key == key);
 }
 
 static void write_table(const Writer *writer, const CzKey *key, const CzTable *table, int indent) {
@@ -212,7 +185,7 @@ static const char *path_of(const Writer *writer, const CzTarget *target,
 
 static void write_target(const Writer *writer, const CzTarget *target) {
     char text[2 * CZ_PATH_ROOM];
-    write_text(writer->stream, path_of(writer, target, text));
+    cz_write_yaml_text(writer->stream, path_of(writer, target, text));
 }
 
 /* Writes one variable that drives the places of one match, or of all matches when `match` < 0. */
@@ -222,7 +195,7 @@ static void write_variable(const Writer *writer, const CzVariable *variable, con
     const char *before = "";
     write_key(writer, "name", "", indent, "- ");
     fputc(' ', writer->stream);
-    write_text(writer->stream, name);
+    cz_write_yaml_text(writer->stream, name);
     fputc('\n', writer->stream);
     write_key(writer, "paths", "", indent, "");
     fputs(" [", writer->stream);
@@ -321,7 +294,7 @@ static void write_places(const Writer *writer, const CzScatter *scatter, const C
              of != NULL ? of->place + 6 : "");
     write_key(writer, "name", "", indent, "- ");
     fputc(' ', writer->stream);
-    write_text(writer->stream, name);
+    cz_write_yaml_text(writer->stream, name);
     fputc('\n', writer->stream);
     write_key(writer, "paths", "", indent, "");
     fputs(" [", writer->stream);
@@ -394,6 +367,24 @@ static void write_list(const Writer *writer, const CzKey *key, const char *memor
         write_item(writer, record, memory, item, indent + 4);
 }
 
+/* Records by name: the first key of each, its name, is that of the mapping. */
+static void write_named(const Writer *writer, const CzKey *key, const char *memory, int indent) {
+    const int n_item = *(const int *)(const void *)(memory + key->n_offset);
+    const char *item = *(const char *const *)(const void *)(memory + key->offset);
+    const int column = write_key(writer, key->stem, "", indent, "");
+    write_origin(writer, key, memory + key->offset, column);
+    CzRecord rest = *key->child;
+    rest.key++;
+    rest.n_key--;
+    for (int i = 0; i < n_item; i++, item += key->child->size) {
+        fprintf(writer->stream, "%s%*s", writer->lead, indent + 2, "");
+        cz_write_yaml_text(writer->stream,
+                   *(const char *const *)(const void *)(item + key->child->key->offset));
+        fputs(":\n", writer->stream);
+        write_record(writer, &rest, item, indent + 4, "");
+    }
+}
+
 /* Whether all variables are choices of parts, so that none remains here. */
 static bool has_only_choices(const CzKey *key, const char *field) {
     const CzOptimise *optimise = (const CzOptimise *)(const void *)field;
@@ -443,12 +434,16 @@ static void write_record(const Writer *writer, const CzRecord *record, const cha
             if (*(const int *)(const void *)(memory + key->n_offset) > 0)
                 write_list(writer, key, memory, indent);
             break;
+        case CZ_KEY_NAMED:
+            if (*(const int *)(const void *)(memory + key->n_offset) > 0)
+                write_named(writer, key, memory, indent);
+            break;
         case CZ_KEY_TABLE:
             if (((const CzTable *)(const void *)field)->given)
                 write_table(writer, key, (const CzTable *)(const void *)field, indent);
             break;
         case CZ_KEY_TEXTS:
-            if (((const CzTexts *)(const void *)field)->n_text > 0)
+            if (has_texts(writer, key, field))
                 write_texts(writer, key, (const CzTexts *)(const void *)field, indent);
             break;
         default:

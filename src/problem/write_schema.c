@@ -94,6 +94,12 @@ static void write_key(FILE *stream, bool *is_first, const CzKey *key) {
         fprintf(stream, ", \"type\": \"array\", \"items\": {\"$ref\": \"#/definitions/%s\"}}",
                 key->child->name);
         break;
+    case CZ_KEY_NAMED:
+        fprintf(stream,
+                ", \"type\": \"object\", \"additionalProperties\": {\"$ref\": "
+                "\"#/definitions/%s\"}}",
+                key->child->name);
+        break;
     case CZ_KEY_TEXTS:
         fputs(", \"type\": \"array\", \"items\": {\"type\": [\"string\", \"number\"]}}", stream);
         break;

@@ -239,6 +239,12 @@ static void write_not_covered(const CzEvaluation *evaluation, CzTerminal *termin
                         evaluation->not_covered[i]);
     if (evaluation->n_not_covered > 0)
         fputs(".\n", terminal->stream);
+    for (int i = 0; i < evaluation->n_not_applicable; i++)
+        cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s%s",
+                        i > 0 ? "; " : "Scenarios of the profile that do not apply: ",
+                        evaluation->not_applicable[i]);
+    if (evaluation->n_not_applicable > 0)
+        fputs(".\n", terminal->stream);
 }
 
 void cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *before,

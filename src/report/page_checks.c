@@ -16,16 +16,26 @@ static const char *const verdict_title[] = {[CZ_VERDICT_PASS] = "PASS",
                                             [CZ_VERDICT_FAIL] = "FAIL",
                                             [CZ_VERDICT_NOT_CHECKED] = "NOT CHECKED"};
 
+/* A sentence that lists texts. */
+static void write_texts(CzMarkup *markup, const char *title, int n, const char *const *text) {
+    for (int i = 0; i < n; i++) {
+        if (i == 0)
+            cz_markup_write(markup, "<p>%s: %s", title, text[i]);
+        else
+            cz_markup_write(markup, "; %s", text[i]);
+    }
+    if (n > 0)
+        cz_markup_write(markup, ".</p>\n");
+}
+
 void cz_page_write_not_covered(CzMarkup *markup, const CzEvaluation *evaluation) {
     for (int i = 0; i < evaluation->n_not_judged; i++)
         cz_markup_write(markup, "<p>Not judged: %s, %s.</p>\n", evaluation->not_judged[i].train,
                         evaluation->not_judged[i].why);
-    if (evaluation->n_not_covered == 0)
-        return;
-    cz_markup_write(markup, "<p>Not covered by this program, to be shown by other means: ");
-    for (int i = 0; i < evaluation->n_not_covered; i++)
-        cz_markup_write(markup, "%s%s", i > 0 ? "; " : "", evaluation->not_covered[i]);
-    cz_markup_write(markup, ".</p>\n");
+    write_texts(markup, "Not covered by this program, to be shown by other means",
+                evaluation->n_not_covered, evaluation->not_covered);
+    write_texts(markup, "Scenarios of the profile that do not apply", evaluation->n_not_applicable,
+                evaluation->not_applicable);
 }
 
 void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,

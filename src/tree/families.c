@@ -199,13 +199,7 @@ static const CzNode *take_like(const Scenarios *scenarios, const CzNode *scenari
     const CzNode *base = like != NULL ? find_like(scenarios, like->value) : NULL;
     if (base == NULL)
         return scenario;
-    CzNode *whole = cz_node_copy(&scenarios->reader->arena, scenario, base->n_entry);
-    for (int i = 0; whole != NULL && i < base->n_entry; i++) {
-        const char *key = base->entry[i].key->text;
-        if (!cz_text_is_word(key, "name family like") && cz_find_same_stem(whole, key) == NULL)
-            whole->entry[whole->n_entry++] = base->entry[i];
-    }
-    return whole;
+    return cz_inherit(&scenarios->reader->arena, scenario, base, "name family like");
 }
 
 /* Appends the members of a scenario, or the scenario itself when it has no sweep that can be

@@ -205,6 +205,13 @@ static const CzNode *load_bases(Loader *loader, const CzNode *top, const char **
     return base != NULL ? cz_merge(&reader->arena, base, NULL, top, NULL, true) : NULL;
 }
 
+CzTree cz_load_parts(CzReader *reader, const CzNode *top) {
+    Loader loader = {.reader = reader, .tree.by_name.arena = &reader->arena};
+    load_catalogues(&loader, top);
+    cz_parts_measure(reader, &loader.tree);
+    return loader.tree;
+}
+
 CzTree cz_load_tree(CzReader *reader, const CzNode *top) {
     Loader loader = {.reader = reader, .tree.by_name.arena = &reader->arena};
     const char *chain[DEEPEST_CHAIN + 1] = {top->source->name};

@@ -11,6 +11,9 @@ const CzNode *cz_load_file(CzReader *reader, const char *path, const CzNode *pla
  */
 CzTree cz_load_tree(CzReader *reader, const CzNode *top);
 
+/* The parts of the catalogues that a file names, and of those that they name, without a root. */
+CzTree cz_load_parts(CzReader *reader, const CzNode *top);
+
 /* The file `name` in the folder of the file of `place`, else in the share folder under `subfolder`
  * (may be NULL); a mistake and NULL when there is none. */
 const char *cz_load_locate(CzReader *reader, const char *name, const CzNode *place,

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/index.h"
+#include "base/text.h"
 #include "text/units.h"
 
 const CzTrail cz_no_trail = {0};
@@ -23,6 +24,17 @@ CzEntry *cz_find_same_stem(CzNode *mapping, const char *key) {
         if (cz_key_same_stem(mapping->entry[i].key->text, key))
             return &mapping->entry[i];
     return NULL;
+}
+
+const CzNode *cz_inherit(CzArena *arena, const CzNode *mapping, const CzNode *base,
+                         const char *but) {
+    CzNode *whole = cz_node_copy(arena, mapping, base->n_entry);
+    for (int i = 0; whole != NULL && i < base->n_entry; i++) {
+        const char *key = base->entry[i].key->text;
+        if (!cz_text_is_word(key, but) && cz_find_same_stem(whole, key) == NULL)
+            whole->entry[whole->n_entry++] = base->entry[i];
+    }
+    return whole;
 }
 
 /* Indexes the items of a list by name; of several with the same name the first. */

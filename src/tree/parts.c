@@ -126,3 +126,19 @@ const CzNode *cz_take_part(CzReader *reader, const CzTree *tree, const CzNode *n
     const CzNode *base = cz_take_part(reader, tree, part->node, part_trail);
     return base != NULL ? cz_merge(&reader->arena, base, part_trail, rest, trail, false) : NULL;
 }
+
+const CzNode *cz_parts_write_out(CzReader *reader, const CzTree *tree, const CzNode *node,
+                                 const CzTrail *trail) {
+    const CzNode *taken = cz_take_part(reader, tree, node, trail);
+    if (taken == NULL || taken->kind == CZ_NODE_TEXT)
+        return taken;
+    CzNode *whole = cz_node_copy(&reader->arena, taken, 0);
+    for (int i = 0; whole != NULL && i < whole->n_entry; i++) {
+        CzEntry *entry = &whole->entry[i];
+        entry->trail = cz_entry_trail(entry, trail);
+        entry->value = cz_parts_write_out(reader, tree, entry->value, entry->trail);
+        if (entry->value == NULL)
+            return NULL;
+    }
+    return whole;
+}

@@ -36,4 +36,8 @@ void cz_parts_measure(CzReader *reader, CzTree *tree);
 const CzNode *cz_take_part(CzReader *reader, const CzTree *tree, const CzNode *node,
                            const CzTrail *trail);
 
+/* The same for all mappings inside, at any depth. */
+const CzNode *cz_parts_write_out(CzReader *reader, const CzTree *tree, const CzNode *node,
+                                 const CzTrail *trail);
+
 #endif

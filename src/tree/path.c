@@ -34,9 +34,11 @@ typedef struct {
 /* Progress along the path. */
 typedef struct {
     const CzRecord *record; /* of the mapping, or of the list's items; NULL: not known */
+    const CzRecord *named;  /* of the records of a mapping by name; NULL: it is a record */
     const CzTrail *trail;
     int level;    /* present segment */
     bool is_open; /* beyond a * */
+    bool is_list; /* of a list's items */
 } Step;
 
 /* A node at the place of a segment, for mistakes. */
@@ -232,6 +234,24 @@ static bool needs_nothing(const CzRecord *record) {
     return true;
 }
 
+/* The step from a mapping to a record or list inside, without its trail. */
+static Step inwards(Step step, const char *name) {
+    const CzKey *key = step.record != NULL ? cz_record_key(step.record, name) : NULL;
+    const CzRecord *inside = key != NULL ? key->child : step.named;
+    const bool is_named = key != NULL && key->kind == CZ_KEY_NAMED;
+    return (Step){.record = is_named ? NULL : inside,
+                  .named = is_named ? inside : NULL,
+                  .level = step.level + 1,
+                  .is_open = step.is_open,
+                  .is_list = key != NULL && key->kind != CZ_KEY_CHILD && !is_named};
+}
+
+/* Whether a record that is not in the file may begin with the value that is set. */
+static bool may_be_added(const Step *step) {
+    return step->named != NULL ||
+           (step->record != NULL && !step->is_list && needs_nothing(step->record));
+}
+
 static void report_unknown(Walk *walk, const CzNode *mapping, Step step) {
     const char *name = walk->segment[step.level].name;
     CzSuggestion suggestion = {0};
@@ -273,14 +293,12 @@ static const CzNode *walk_mapping(Walk *walk, const CzNode *mapping, Step step) 
         return put_value(walk, mapping, step);
     if (is_copied(walk, mapping, step))
         return mapping;
-    const CzKey *key = step.record != NULL ? cz_record_key(step.record, segment->name) : NULL;
-    const CzRecord *inside = key != NULL ? key->child : NULL;
     const CzEntry *entry = cz_node_find(mapping, segment->name);
+    Step next = inwards(step, segment->name);
     const bool is_new = entry == NULL;
     if (is_new && step.is_open)
         return mapping;
-    if (is_new && (walk->put->kind != CZ_PUT_VALUE || key == NULL || key->kind != CZ_KEY_CHILD ||
-                   !needs_nothing(inside))) {
+    if (is_new && (walk->put->kind != CZ_PUT_VALUE || !may_be_added(&next))) {
         report_unknown(walk, mapping, step);
         return mapping;
     }
@@ -297,8 +315,7 @@ static const CzNode *walk_mapping(Walk *walk, const CzNode *mapping, Step step) 
     if (is_record(step.record, "train"))
         walk->train = cz_node_find_text(mapping, "name");
     const size_t before = enter(walk, segment->name, 0);
-    const Step next = {inside, cz_entry_trail(&changed->entry[at], step.trail), step.level + 1,
-                       step.is_open};
+    next.trail = cz_entry_trail(&changed->entry[at], step.trail);
     changed->entry[at].value = walk_on(walk, changed->entry[at].value, next);
     walk->at[before] = '\0';
     if (changed->entry[at].value == &empty) /* no value was set */
@@ -380,8 +397,10 @@ static const CzNode *walk_list(Walk *walk, const CzNode *list, Step step) {
             continue;
         is_found = true;
         const size_t before = enter(walk, name, i);
-        const Step next = {step.record, trail, step.level,
-                           step.is_open || segment->kind == CZ_SEGMENT_ALL};
+        const Step next = {.record = step.record,
+                           .trail = trail,
+                           .level = step.level,
+                           .is_open = step.is_open || segment->kind == CZ_SEGMENT_ALL};
         changed->entry[i].value = walk_item(walk, item, next);
         walk->at[before] = '\0';
         if (changed->entry[i].value == NULL)
@@ -418,7 +437,8 @@ static bool walk_part(Walk *walk, CzPart *part, bool is_open) {
     walk->part = part;
     walk->set = &trail[1];
     snprintf(walk->at, sizeof walk->at, "parts.%s", part->name);
-    const CzNode *changed = walk_on(walk, part->node, (Step){NULL, trail, 2, is_open});
+    const CzNode *changed =
+        walk_on(walk, part->node, (Step){.trail = trail, .level = 2, .is_open = is_open});
     if (changed != NULL)
         part->node = changed;
     return changed != NULL;
@@ -468,7 +488,7 @@ int cz_path_put(CzReader *reader, CzTree *tree, const char *path, const CzNode *
     if (walk.segment[0].kind == CZ_SEGMENT_NAME && strcmp(walk.segment[0].name, "parts") == 0) {
         has_memory = put_into_parts(&walk, tree, depth);
     } else {
-        const Step top = {reader->top, &cz_no_trail, 0, false};
+        const Step top = {.record = reader->top, .trail = &cz_no_trail};
         const CzNode *root = walk_on(&walk, tree->root, top);
         has_memory = root != NULL;
         tree->root = has_memory ? root : tree->root;

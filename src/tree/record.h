@@ -28,6 +28,7 @@ typedef enum CzKeyKind {
     CZ_KEY_STAGES,
     CZ_KEY_TABLE,
     CZ_KEY_LIST,
+    CZ_KEY_NAMED,
     CZ_KEY_TEXTS
 } CzKeyKind;
 
@@ -62,8 +63,8 @@ typedef struct CzKey {
     double absent;                /* number, count, choice, flag: value when absent */
     CzVariation variation;        /* number: whether a search may change it */
     const CzWordSet *words;       /* choice: its words */
-    const struct CzRecord *child; /* child, list, stages: record inside */
-    size_t n_offset;              /* list, stages: of the count of items [byte] */
+    const struct CzRecord *child; /* child, list, named, stages: record inside */
+    size_t n_offset;              /* list, named, stages: of the count of items [byte] */
     const char *x, *y;            /* table: stems of the columns */
     CzDimension y_dimension;
 } CzKey;

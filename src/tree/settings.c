@@ -161,6 +161,16 @@ static void apply(CzReader *reader, CzTree *tree, const CzSetting *setting, int 
             tell_nothing(reader, &setting[i]);
 }
 
+CzTree cz_settings_apply_first(CzReader *reader, const CzTree *tree, const CzSetting *setting,
+                               int n_setting, const char *beginning) {
+    CzTree changed = *tree;
+    for (int i = 0; i < n_setting; i++)
+        if (strncmp(setting[i].path, beginning, strlen(beginning)) == 0)
+            (void)cz_path_put(reader, &changed, setting[i].path, setting[i].place, &setting[i].put,
+                              0);
+    return changed;
+}
+
 CzTree cz_settings_apply(CzReader *reader, const CzTree *tree, const CzSetting *setting,
                          int n_setting) {
     CzTree changed = *tree;

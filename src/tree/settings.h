@@ -26,6 +26,11 @@ const CzSetting *cz_settings_gather(CzReader *reader, const CzNode *root, int n_
 int cz_settings_gather_options(CzReader *reader, const char *folder, int n_set,
                                const char *const *set, CzSetting *setting);
 
+/* The tree with the settings applied whose paths begin with `beginning`, outside of parts; one that
+ * names nothing is reported when all are applied. */
+CzTree cz_settings_apply_first(CzReader *reader, const CzTree *tree, const CzSetting *setting,
+                               int n_setting, const char *beginning);
+
 /* The tree with all settings applied, except those that are late. */
 CzTree cz_settings_apply(CzReader *reader, const CzTree *tree, const CzSetting *setting,
                          int n_setting);

@@ -7,7 +7,7 @@ schema: 1
 name: own
 edition: ours
 limits:
-  - {name: peak force, metric: interfaces.peak_force_kN, max: 3000, source: from memory, confidence: M1}
+  - {name: peak force, metric: interfaces.peak_force_kN, max: 3000, clause: peak force, source: from memory, confidence: M1}
 not_checked: [vestibules, obstacle deflector]
 END
 # Two rigid cars with perfectly elastic buffers: nothing is dissipated.
@@ -41,7 +41,8 @@ confirmed() {
 }
 check "a pass against a limit from the primary text is a pass" confirmed
 underframes() {
-    exits 0 "$C" run "$SOURCE/problems/two-cars-25kmh.yaml" --set checks.profile=us-49cfr238 --set trains.B.height_offset_mm=40 -q -o rise &&
+    printf 'extends: %s/problems/two-cars-25kmh.yaml\nchecks: {profile: us-49cfr238, category: tier-1-cab, scenarios: []}\nscenarios: [{name: offset, height_offset_mm: 40}]\n' "$SOURCE" >rise.yaml
+    exits 0 "$C" run rise.yaml -q -o rise &&
         grep -qE '^underframe rise, colliding +A1-B1 +101\.6 mm +[1-9][0-9.]* mm +[+-]?[0-9]' out.txt && grep -qE '^underframe rise, coupled .* n/a' out.txt
 }
 check "the profile of 49 CFR 238 limits the rise of the underframes" underframes

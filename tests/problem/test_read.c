@@ -238,7 +238,7 @@ static void limits_of_a_profile_are_those_of_the_category(void **state) {
     assert_string_equal(profile->limits[1].name, "for C-II");
     CzError error = {0};
     cz_problem_place(problem, &profile->limits[1].max, &error);
-    assert_int_equal(error.line, 8);
+    assert_int_equal(error.line, 12);
     cz_problem_free(problem);
     problem = read_good("rigid.yaml", 0, NULL);
     assert_null(cz_problem_profile(problem));

@@ -23,7 +23,7 @@ static void check_same_items(const CzKey *key, const char *a, const char *b) {
     const size_t size = key->child->size;
     const char *first = a + key->offset, *second = b + key->offset;
     assert_int_equal(n_item, *(const int *)(const void *)(b + key->n_offset));
-    if (key->kind == CZ_KEY_LIST) {
+    if (key->kind == CZ_KEY_LIST || key->kind == CZ_KEY_NAMED) {
         first = *(const char *const *)(const void *)first;
         second = *(const char *const *)(const void *)second;
     }
@@ -97,6 +97,7 @@ static void reading_the_resolved_file_gives_the_same_input(void **state) {
     check_round_trip("full.yaml", GOOD_FOLDER);
     check_round_trip("overlay.yaml", GOOD_FOLDER);
     check_round_trip("curves.yaml", GOOD_FOLDER);
+    check_round_trip("single.yaml", GOOD_FOLDER);
 }
 
 static void shipped_problems_resolve_to_themselves(void **state) {

@@ -1,5 +1,6 @@
 cz_test(problem-read unit test_read.c)
 cz_test(problem-find unit test_find.c)
+cz_test(problem-profile unit test_profile.c)
 cz_test(problem-resolved unit test_resolved.c)
 cz_test(problem-curves unit test_curves.c)
 cz_test(problem-curve-file unit test_curve_file.c)

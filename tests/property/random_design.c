@@ -214,7 +214,7 @@ static void put_partner(Draw *draw, double speed, int n_car) {
 static void put_limits(Draw *draw) {
     fprintf(draw->file, "checks:\n");
     if (chance(draw, 0.5))
-        fprintf(draw->file, "  profile: en15227-2020a1\n");
+        fprintf(draw->file, "  profile: collision-limits\n");
     if (chance(draw, 0.3))
         fprintf(draw->file, "  design_rules: false\n");
     fprintf(draw->file,

@@ -26,6 +26,7 @@
 #define CZ_STAGES(type, stem, presence, doc)
 #define CZ_TABLE(type, stem, x, x_dimension, y, y_dimension, presence, doc)
 #define CZ_LIST(type, stem, child, presence, doc)
+#define CZ_NAMED(type, stem, child, presence, doc)
 #define CZ_TEXTS(type, stem, presence, doc)
 #include "problem/keys.def"
 

@@ -1,0 +1,93 @@
+/* Limits of a profile: changing one of them changes exactly the verdicts that depend on it. */
+#include "support/work_folder.h"
+
+#include <sys/stat.h>
+
+#include "evaluate/evaluator.h"
+#include "evaluate/small_problem.h"
+
+typedef struct Case {
+    CzProblem *problem;
+    CzEvaluator *evaluator;
+    CzEvaluation evaluation;
+} Case;
+
+/* Judges the small problem by a profile with limits of a force and a shortening. */
+static Case judge(double force, double shortening, const char *checks) {
+    Case made = {0};
+    CzError error = {0};
+    (void)mkdir("profiles", 0777);
+    FILE *file = fopen("profiles/mine.yaml", "w");
+    assert_non_null(file);
+    fprintf(file,
+            "schema: 1\nname: mine\nedition: none\nlimits:\n"
+            "  - {name: force, metric: interfaces.peak_force_kN, max: %g, scenarios: [crash, "
+            "between], clause: a, source: ours, confidence: user}\n"
+            "  - {name: shortening, metric: interfaces.shortening_mm, max: %g, clause: b, source: "
+            "ours, confidence: M2}\n",
+            force, shortening);
+    fclose(file);
+    made.problem = small_problem(checks);
+    if (cz_evaluator_build(made.problem, NULL, &made.evaluator, &error) != CZ_OK)
+        fail_msg("%s", error.message);
+    assert_int_equal(cz_evaluate(made.evaluator, 1, NULL, false, &made.evaluation, &error), CZ_OK);
+    return made;
+}
+
+static void end(Case *made) {
+    cz_evaluation_free(&made->evaluation);
+    cz_evaluator_free(made->evaluator);
+    cz_problem_free(made->problem);
+}
+
+/* Checks that differ, each of which must have the name. */
+static int count_changed(const Case *before, const Case *after, const char *name) {
+    int n = 0;
+    assert_int_equal(before->evaluation.n_check, after->evaluation.n_check);
+    for (int i = 0; i < before->evaluation.n_check; i++) {
+        const CzCheckResult *a = &before->evaluation.check[i], *b = &after->evaluation.check[i];
+        const bool is_same = a->verdict == b->verdict &&
+                             memcmp(&a->limit, &b->limit, sizeof a->limit) == 0 &&
+                             memcmp(&a->value, &b->value, sizeof a->value) == 0 &&
+                             memcmp(&a->margin, &b->margin, sizeof a->margin) == 0;
+        assert_string_equal(a->name, b->name);
+        assert_string_equal(a->scenario, b->scenario);
+        if (!is_same)
+            assert_string_equal(a->name, name);
+        n += !is_same;
+    }
+    return n;
+}
+
+static const char plain[] = "checks: {profile: mine}\n";
+
+static void one_limit_changes_only_its_own_verdicts(void **state) {
+    (void)state;
+    Case before = judge(9000, 2000, plain), force = judge(100, 2000, plain),
+         shortening = judge(9000, 10, plain);
+    assert_int_equal(count_changed(&before, &force, "force"), 2);           /* in two scenarios */
+    assert_int_equal(count_changed(&before, &shortening, "shortening"), 4); /* but overload */
+    end(&shortening);
+    end(&force);
+    end(&before);
+}
+
+static void an_override_acts_as_the_number_in_the_profile(void **state) {
+    (void)state;
+    Case in_profile = judge(100, 2000, plain);
+    Case over = judge(9000, 2000, "checks: {profile: mine, override: {force: {max: 100}}}\n");
+    assert_int_equal(count_changed(&in_profile, &over, ""), 0);
+    end(&over);
+    end(&in_profile);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_limit_changes_only_its_own_verdicts),
+        cmocka_unit_test(an_override_acts_as_the_number_in_the_profile),
+    };
+    if (enter_work_folder() != 0)
+        return 1;
+    const int n_failed = cmocka_run_group_tests(tests, NULL, NULL);
+    return leave_work_folder() != 0 ? 1 : n_failed;
+}

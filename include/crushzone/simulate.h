@@ -108,6 +108,8 @@ typedef struct CzInterfaceResult {
     CzElementResult element[CZ_MAX_ELEMENTS];
 } CzInterfaceResult;
 
+enum { CZ_N_FREE_FLIGHT = 10 }; /* distances for which the secondary impact is listed */
+
 typedef struct CzVehicleResult {
     char name[CZ_NAME_ROOM];
     double final_speed;               /* of the body [m/s] */
@@ -116,19 +118,41 @@ typedef struct CzVehicleResult {
     double mean_deceleration_120ms;   /* largest mean over any window of 120 ms or more [m/s2] */
     double contact_window[2];         /* start and end of the first of these windows, and */
     double window_120ms[2];           /* of the second [s]; equal where there is none */
-    double wheel_lift[4];             /* largest lift of each wheelset, rear to front [m] */
-    double wheel_lift_time[4];        /* [s] */
-    double bogie_lift_time;           /* time of the next [s] */
-    int lifted_bogie;                 /* where: 0 rear, 1 front */
-    double bogie_lift; /* largest over bogies and time of the lower wheelset's lift [m] */
-    double max_pitch;  /* largest |pitch| of the body [rad] */
-    double link_force; /* largest traction link force [N] */
+    double peak_deceleration_cfc60;   /* largest |acceleration| through a filter CFC 60 [m/s2]; NaN
+                                         without a pulse */
+    double secondary_impact[CZ_N_FREE_FLIGHT]; /* velocity of a free occupant against the vehicle
+                                                  after 0.1, 0.2, ... m [m/s]; NaN likewise */
+    double wheel_lift[4];      /* largest lift of each wheelset, rear to front [m] */
+    double wheel_lift_time[4]; /* [s] */
+    double bogie_lift_time;    /* time of the next [s] */
+    int lifted_bogie;          /* where: 0 rear, 1 front */
+    double bogie_lift;         /* largest over bogies and time of the lower wheelset's lift [m] */
+    double max_pitch;          /* largest |pitch| of the body [rad] */
+    double link_force;         /* largest traction link force [N] */
     double
         link_travel; /* largest travel of a bogie relative to the body at its traction link [m] */
     double survival_shortening; /* stroke of survival zones, both ends [m]; NaN when no end has a
                                    survival zone */
     bool checks_override;       /* bump and lift stops are given, so that override can be judged */
 } CzVehicleResult;
+
+/* A time over which the net contact force on a vehicle keeps its sign above a floor. */
+typedef struct CzContactWindow {
+    double from, to; /* [s] */
+    double mean;     /* |change of speed| / time [m/s2] */
+} CzContactWindow;
+
+/* Speed of a body and net contact force on its vehicle over time, unfiltered. */
+typedef struct CzPulse {
+    int n_sample;
+    double step;         /* between samples, the first at t = 0 [s] */
+    const double *speed; /* [m/s] (n_sample) */
+    const double *force; /* push from behind less push from ahead [N] (n_sample) */
+    int n_window;
+    const CzContactWindow
+        *window; /* contact windows with at least half of the largest mean, however
+                    short, with a floor of 1 % of the largest force (n_window) */
+} CzPulse;
 
 /* Sources of the pitch and lift of a body. */
 typedef enum CzBudgetSource {
@@ -206,8 +230,9 @@ typedef struct CzRunSummary {
                                      row, whose masses move too */
     int n_vehicle;
     const CzVehicleResult *vehicle; /* (n_vehicle) */
-    const CzVehicleBudget *budget;  /* of a recorded run of the usual integrator, else NULL; all 0
-                                       for vehicles that are not full (n_vehicle) */
+    const CzPulse *pulse; /* of a run that is recorded or keeps pulses, else NULL (n_vehicle) */
+    const CzVehicleBudget *budget; /* of a recorded run of the usual integrator, else NULL; all 0
+                                      for vehicles that are not full (n_vehicle) */
     int n_event;
     const CzEvent *event;   /* (n_event), in time order */
     double setup_s, wall_s; /* for run_info only */
@@ -228,6 +253,8 @@ typedef struct CzSimulateOptions {
     bool brief; /* for a search: end also when no device crushes any more and no later contact can
                    exceed 0.4 of the first closing speed; such a run ends with CZ_ENDED_SETTLED and
                    is not a production run */
+    bool keep_pulses; /* keep the pulses of the vehicles, and results that are made of them, also
+                         where nothing is recorded: some metrics need them */
     CzTrackUse track;
     CzIntegrator integrator; /* CZ_INTEGRATOR_ZHAI for production runs; the others support all
                                 tracks but `fe` */

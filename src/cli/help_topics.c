@@ -7,9 +7,11 @@
 #include "crushzone/report.h"
 
 #include "evaluate/results.h"
+#include "simulate/pulse.h"
 #include "text/units.h"
 
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -160,6 +162,26 @@ static void write_metrics(void) {
     write_entries((int)(sizeof metrics / sizeof *metrics), metrics, 40);
 }
 
+static void write_metric_parameters(void) {
+    static const struct {
+        const char *metric, *name;
+        double usual;
+        const char *doc;
+    } parameters[] = {
+#define CZ_METRIC_PARAMETER(record, key, name, in_si, lo, hi, usual, doc)                          \
+    {CZ_METRIC_PREFIX_##record #key, #name, usual, doc},
+#define CZ_METRIC_OF_PULSE(...)
+#include "evaluate/metric_parameters.def"
+    };
+    for (size_t i = 0; i < sizeof parameters / sizeof *parameters; i++) {
+        printf("  %s(%s", parameters[i].metric, parameters[i].name);
+        if (!isnan(parameters[i].usual))
+            printf("=%.3g", parameters[i].usual);
+        printf(")\n      ");
+        cz_help_write_wrapped(parameters[i].doc, 6);
+    }
+}
+
 static void write_checks(void) {
     puts(
         "Keys of `checks:` in a problem file. The checks are the limits of the profile, the limits "
@@ -175,6 +197,9 @@ static void write_checks(void) {
     puts("\nMetrics for limits, targets and the objective. The worst place counts unless the name "
          "selects\none: interfaces.A4-B1.peak_force_kN, vehicles.A1.max_pitch_mrad.\n");
     write_metrics();
+    puts("\nParameters of metrics, behind the name, such as vehicles.A1.siv_m_s(gap_m=0.75). One "
+         "with a number\nhere has it when it is left out:\n");
+    write_metric_parameters();
 }
 
 static void write_algorithms(void) {

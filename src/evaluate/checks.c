@@ -137,7 +137,7 @@ static double detail_of(const Details *details, double value) {
 /* The constraint at a place, continued where the energy of an idle device is zero. */
 static double detail_at(const Details *details, const CzPlace *place) {
     const CzCheck *check = details->check;
-    const double value = cz_metric_at(check->metric.kind, place);
+    const double value = cz_metric_at(&check->metric, place);
     CzActivation activation;
     if (check->is_minimum || !cz_metric_activation_at(check->metric.kind, place, &activation))
         return detail_of(details, value);

@@ -45,22 +45,35 @@ static void split_selector(const char *text, char *name, size_t n_name, char *se
     snprintf(selector, n_selector, "%.*s", (int)(last - first - 1), first + 1);
 }
 
+/* Moves the text between the last brackets of a metric out of it: "name(text).max" becomes
+ * "name.max". */
+static void cut_parameters(char *metric, char *text, size_t n_text) {
+    char *open = strrchr(metric, '('), *close = open != NULL ? strchr(open, ')') : NULL;
+    text[0] = '\0';
+    if (close == NULL)
+        return;
+    snprintf(text, n_text, "%.*s", (int)(close - open - 1), open + 1);
+    memmove(open, close + 1, strlen(close + 1) + 1);
+}
+
 CzStatus cz_metric_parse(const char *text, CzMetric *metric, CzError *error) {
-    char copy[CZ_PATH_ROOM], name[CZ_PATH_ROOM];
+    char copy[CZ_PATH_ROOM], name[CZ_PATH_ROOM], whole[CZ_PATH_ROOM], parameters[CZ_PATH_ROOM];
     if (strlen(text) >= sizeof copy)
         return cz_fail(error, CZ_STATUS_INPUT, "the metric '%.40s...' is longer than %d bytes",
                        text, CZ_PATH_ROOM - 1);
-    snprintf(copy, sizeof copy, "%s", text);
+    snprintf(whole, sizeof whole, "%s", text);
+    cut_parameters(whole, parameters, sizeof parameters);
+    snprintf(copy, sizeof copy, "%s", whole);
     metric->aggregate = aggregate_of(cut_last_word(copy));
     if (metric->aggregate == CZ_AGGREGATE_WORST)
-        snprintf(copy, sizeof copy, "%s", text);
+        snprintf(copy, sizeof copy, "%s", whole);
     split_selector(copy, name, sizeof name, metric->selector, sizeof metric->selector);
     CzSuggestion nearest = {0};
     const int kind =
         CZ_FIND_NAMED(name, CzMetricKind, cz_metric_kind(0), cz_n_metric_kind(), &nearest);
     metric->kind = kind >= 0 ? cz_metric_kind(kind) : NULL;
     if (kind >= 0)
-        return CZ_OK;
+        return cz_metric_read_parameters(parameters, metric, error);
     const CzStatus status = cz_fail(error, CZ_STATUS_INPUT, "there is no metric '%s'", text);
     cz_suggest_help(&nearest, error);
     return status;
@@ -72,9 +85,11 @@ bool cz_metric_picks(const CzMetric *metric, const CzScene *scene) {
 
 /* ---- value ----------------------------------------------------------------------------------- */
 
+static const char no_pulse[] = "the run did not keep the pulses of the vehicles";
+
 /* Sums over the places. */
 typedef struct Sum {
-    const CzMetricKind *kind;
+    const CzMetric *metric;
     bool seeks_max;
     int n_known;
     double extreme, total; /* in the unit */
@@ -85,9 +100,9 @@ typedef struct Sum {
 
 static void add_place(const CzPlace *place, void *data) {
     Sum *sum = data;
-    const double value = cz_metric_at(sum->kind, place);
+    const double value = cz_metric_at(sum->metric, place);
     if (isnan(value)) {
-        const bool unknown = sum->kind->may_be_unknown && place->must_declare;
+        const bool unknown = sum->metric->kind->may_be_unknown && place->must_declare;
         if (unknown && !sum->any_unknown)
             memcpy(sum->unknown_where, place->name, sizeof sum->unknown_where);
         sum->any_unknown |= unknown;
@@ -98,7 +113,7 @@ static void add_place(const CzPlace *place, void *data) {
     if (first || (sum->seeks_max ? value > sum->extreme : value < sum->extreme)) {
         sum->extreme = value;
         memcpy(sum->where, place->name, sizeof sum->where);
-        cz_metric_time_window(sum->kind, place, sum->when);
+        cz_metric_time_window(sum->metric, place, sum->when);
     }
 }
 
@@ -112,7 +127,10 @@ static double aggregate_value(const Sum *sum, CzAggregate aggregate) {
 
 CzMetricValue cz_metric_value(const CzMetric *metric, const CzSubject *subject, bool worst_is_max) {
     const CzAggregate aggregate = metric->aggregate;
-    Sum sum = {.kind = metric->kind,
+    if (subject->run != NULL && subject->run->pulse == NULL && cz_metric_needs_pulse(metric))
+        return (CzMetricValue){
+            .known = CZ_UNKNOWN, .value = NAN, .when = {NAN, NAN}, .why = no_pulse};
+    Sum sum = {.metric = metric,
                .when = {NAN, NAN},
                .seeks_max = aggregate == CZ_AGGREGATE_MAX ||
                             (aggregate != CZ_AGGREGATE_MIN && worst_is_max)};

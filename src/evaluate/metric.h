@@ -1,11 +1,12 @@
 /* Metrics: meaning and value of a text such as "interfaces.A4-B1.peak_force_kN".
  *
- *   LEVEL [. SELECTOR] . NAME [. max|min|sum|mean]
+ *   LEVEL [. SELECTOR] . NAME [(PARAMETER=VALUE, ...)] [. max|min|sum|mean]
  *
  * The selector picks places by name, with `*` and `?`; `colliding` is the interface between
  * the trains and `inner` are all others. Elements are picked by their name ("coupler A4", "coupler
  * *") or by interface and name ("A4-B1 coupler A4", "colliding coupler *"). Without a word at the
  * end the worst place counts: the largest for an upper limit, the smallest for a lower one.
+ * Parameters are those of metric_parameters.def.
  */
 #ifndef CZ_EVALUATE_METRIC_H
 #define CZ_EVALUATE_METRIC_H
@@ -28,6 +29,15 @@ typedef struct CzMetricKind {
     const char *doc;
 } CzMetricKind;
 
+/* A parameter of a metric: an entry of metric_parameters.def. */
+typedef struct CzMetricParameter {
+    const char *metric, *name;
+    double in_si, lo, hi, usual; /* NaN: it has no usual value and must be given */
+    const char *doc;
+} CzMetricParameter;
+
+enum { CZ_MOST_METRIC_PARAMETERS = 2 }; /* of one metric */
+
 /* Scale that marks a yes or no. */
 #define CZ_FLAG_SCALE (-1.0)
 
@@ -42,7 +52,8 @@ typedef enum CzAggregate {
 typedef struct CzMetric {
     const CzMetricKind *kind;
     CzAggregate aggregate;
-    char selector[CZ_PATH_ROOM]; /* "*" for all */
+    char selector[CZ_PATH_ROOM];                 /* "*" for all */
+    double parameter[CZ_MOST_METRIC_PARAMETERS]; /* SI, in the order of the list */
 } CzMetric;
 
 typedef enum CzKnown {
@@ -70,9 +81,18 @@ CZ_MUST_CHECK CzStatus cz_metric_parse(const char *text, CzMetric *metric, CzErr
 CzMetricValue cz_metric_value(const CzMetric *metric, const CzSubject *subject, bool worst_is_max);
 
 /* Its value at one place, in its unit. */
-double cz_metric_at(const CzMetricKind *kind, const CzPlace *place);
+double cz_metric_at(const CzMetric *metric, const CzPlace *place);
 /* Time at which the value was reached at a place [s]: begin and end, NaN when it is not stored. */
-void cz_metric_time_window(const CzMetricKind *kind, const CzPlace *place, double when[2]);
+void cz_metric_time_window(const CzMetric *metric, const CzPlace *place, double when[2]);
+
+/* Parameters of a metric by its name: the first one; returns how many. */
+int cz_metric_parameters(const char *metric, const CzMetricParameter **first);
+/* Reads the text between the brackets, empty for none; the others get their usual values. Status:
+ * CZ_STATUS_INPUT. */
+CZ_MUST_CHECK CzStatus cz_metric_read_parameters(const char *text, CzMetric *metric,
+                                                 CzError *error);
+/* Whether a metric, unless its kind is NULL, reads the pulses, which a run keeps on request. */
+bool cz_metric_needs_pulse(const CzMetric *metric);
 
 /* Whether a metric is an energy that is zero before an activation; the activation at a place, its
  * size in the metric's unit, false where there is none. */

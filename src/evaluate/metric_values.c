@@ -1,6 +1,7 @@
 /* The metrics, one per entry of results.def, and the values that are judged. */
 #include "evaluate/devices.h"
 #include "evaluate/metric.h"
+#include "simulate/pulse.h"
 
 #include <math.h>
 #include <string.h>
@@ -178,6 +179,48 @@ static double climbed(const CzPlace *place) {
     return place->must_declare ? 0 : NAN;
 }
 
+/* ---- pulses ---- */
+
+static const CzPulse *pulse_of(const CzPlace *place) {
+    const CzRunSummary *run = place->run;
+    return run->pulse != NULL ? &run->pulse[place->vehicle - run->vehicle] : NULL;
+}
+
+/* Mean over the contact windows, by the parameters floor and shortest. */
+static double contact_mean(const CzPlace *place, double window[2]) {
+    const CzVehicleResult *vehicle = place->vehicle;
+    const double floor = place->parameter[0], shortest = place->parameter[1];
+    memcpy(window, vehicle->contact_window, 2 * sizeof *window);
+    if (pulse_of(place) == NULL || (floor == CZ_PULSE_FLOOR && shortest == CZ_PULSE_SHORTEST))
+        return vehicle->mean_deceleration_contact;
+    window[0] = window[1] = 0;
+    return cz_pulse_contact_mean(pulse_of(place), floor, shortest, window);
+}
+
+/* Mean over a sliding window, by the parameter window. */
+static double sliding_mean(const CzPlace *place, double window[2]) {
+    const CzVehicleResult *vehicle = place->vehicle;
+    memcpy(window, vehicle->window_120ms, 2 * sizeof *window);
+    if (pulse_of(place) == NULL || place->parameter[0] == CZ_PULSE_WINDOW)
+        return vehicle->mean_deceleration_120ms;
+    window[0] = window[1] = 0;
+    return cz_pulse_sliding_mean(pulse_of(place), place->parameter[0], window);
+}
+
+/* Secondary impact by the parameter gap; NaN without a pulse. */
+static double secondary_impact(const CzPlace *place, double *time) {
+    *time = NAN;
+    return pulse_of(place) == NULL
+               ? NAN
+               : cz_pulse_secondary_impact(pulse_of(place), place->parameter[0], time);
+}
+
+static double impact_time(const CzPlace *place) {
+    double time;
+    (void)secondary_impact(place, &time);
+    return time;
+}
+
 /* ---- times of values ---- */
 
 /* Time of the first event of a kind at a place; NaN when there was none. */
@@ -217,6 +260,7 @@ static double wheel_lift_time(const CzVehicleResult *vehicle) {
 /* The value of a metric, and its time. */
 #define AT(time) window[0] = window[1] = (time)
 #define OVER(from) memcpy(window, from, 2 * sizeof *window)
+#define BY(function) (void)(function)(place, window)
 #define NO_TIME window[0] = window[1] = NAN
 #define FUNCTIONS(record, key, judged, when)                                                       \
     static double judge_##record##_##key(const CzPlace *place) {                                   \
@@ -277,15 +321,19 @@ int cz_n_metric_kind(void) {
     return N_KIND;
 }
 
-double cz_metric_at(const CzMetricKind *kind, const CzPlace *place) {
-    return kind->value(place) / kind->unit->in_si;
+double cz_metric_at(const CzMetric *metric, const CzPlace *place) {
+    CzPlace at = *place;
+    at.parameter = metric->parameter;
+    return metric->kind->value(&at) / metric->kind->unit->in_si;
 }
 
-void cz_metric_time_window(const CzMetricKind *kind, const CzPlace *place, double when[2]) {
+void cz_metric_time_window(const CzMetric *metric, const CzPlace *place, double when[2]) {
+    CzPlace at = *place;
+    at.parameter = metric->parameter;
     when[0] = when[1] = NAN;
-    if (kind->when != NULL)
-        kind->when(place, when);
-    if (kind->value(place) == 0 || !(when[1] >= when[0]))
+    if (metric->kind->when != NULL)
+        metric->kind->when(&at, when);
+    if (metric->kind->value(&at) == 0 || !(when[1] >= when[0]))
         when[0] = when[1] = NAN;
 }
 

@@ -33,8 +33,9 @@ typedef struct CzPlace {
     const CzVehicle *record;   /* of the vehicle or end; the first of n_record for DESIGN */
     int n_record;
     const CzEnd *end;
-    double section_force; /* [N] */
-    double rate;          /* crush rate for tube forces [m/s] */
+    double section_force;    /* [N] */
+    double rate;             /* crush rate for tube forces [m/s] */
+    const double *parameter; /* of the metric that is read, SI */
     bool must_declare; /* a full vehicle: values that it does not declare are unknown, not absent */
     char name[CZ_WHERE_ROOM];
 } CzPlace;

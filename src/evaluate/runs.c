@@ -32,6 +32,7 @@ typedef struct Block {
     CzEvaluation *begun; /* evaluation of the only design in these scenarios, whose runs are taken
                             over; NULL for none */
     bool record, keep;   /* channels are recorded, runs are kept */
+    bool keep_pulses;    /* those of the vehicles */
     CzManner manner;
     CzRunPlan plan;
 } Block;
@@ -111,6 +112,7 @@ static bool is_stopped(const CzEvaluator *evaluator) {
 static CzSimulateOptions options_of(const Block *block) {
     CzSimulateOptions options = cz_simulate_options_default();
     options.record = block->record;
+    options.keep_pulses = block->keep_pulses;
     options.brief = block->manner.brief;
     options.integrator = block->manner.integrator;
     options.track = block->manner.track;
@@ -222,6 +224,7 @@ static bool request_chunk(int index, void *data, CzMemoryText *request) {
     if (is_stopped(evaluator))
         return false;
     cz_put_int(request, block->record);
+    cz_put_int(request, block->keep_pulses);
     cz_put(request, &block->manner, 1, sizeof block->manner);
     cz_put_int(request, chunk->n);
     for (int i = 0; i < chunk->n; i++) {
@@ -270,6 +273,7 @@ static CzStatus answer_runs(void *study, CzReading *request, CzMemoryText *answe
     CzArena arena = {0};
     Block block = {.evaluator = evaluator};
     block.record = cz_get_int(request) != 0;
+    block.keep_pulses = cz_get_int(request) != 0;
     cz_get(request, &block.manner, 1, sizeof block.manner);
     const int n = cz_get_int(request);
     const int *place = cz_get_items(request, &arena, 2 * n, sizeof *place);
@@ -338,6 +342,18 @@ static CzStatus compose_block(Block *block, CzEvaluation *evaluation, double *de
     return status;
 }
 
+/* Whether a check, a match, the objective or a further metric reads the pulses of a run. */
+static bool needs_pulses(const CzEvaluator *evaluator) {
+    bool needs = cz_metric_needs_pulse(&evaluator->objective);
+    for (int i = 0; i < evaluator->list.n_check && !needs; i++)
+        needs = cz_metric_needs_pulse(&evaluator->list.check[i].metric);
+    for (int i = 0; i < evaluator->n_wanted && !needs; i++)
+        needs = cz_metric_needs_pulse(&evaluator->wanted[i].metric);
+    for (int i = 0; i < evaluator->matches.n_item && !needs; i++)
+        needs = cz_metric_needs_pulse(&evaluator->matches.item[i].metric);
+    return needs;
+}
+
 /* `settings` contains the settings of the runs and the results to keep. */
 static CzStatus evaluate_block(const Block *settings, int n_point, const double *x,
                                CzEvaluation *evaluation, double *detail, CzError *error) {
@@ -345,6 +361,7 @@ static CzStatus evaluate_block(const Block *settings, int n_point, const double 
     block.n_point = n_point;
     block.x = x;
     block.record |= block.evaluator->matches.needs_record;
+    block.keep_pulses = needs_pulses(block.evaluator);
     block.manner.brief &= block.evaluator->matches.n_item == 0;
     CzStatus status = begin_block(&block, error);
     if (status == CZ_OK && block.begun != NULL)

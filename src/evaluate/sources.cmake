@@ -20,6 +20,7 @@ set(CZ_SOURCES_evaluate
     listed.c
     match.c
     metric.c
+    metric_parameters.c
     metric_values.c
     not_applicable.c
     obstacle.c

@@ -144,6 +144,11 @@ static const char *lifted_bogie(const CzVehicleResult *vehicle) {
     return vehicle->lifted_bogie == 0 ? "rear" : "front";
 }
 
+/* The pulse of a vehicle of the run that is being written. */
+static const CzPulse *pulse_of(const CzResultContext *context, const CzVehicleResult *vehicle) {
+    return &context->run->pulse[vehicle - context->run->vehicle];
+}
+
 /* The source of the impulse that is being written. */
 static CzBudgetSource source_of(const CzResultContext *context) {
     return (CzBudgetSource)(context->order != NULL ? context->order[context->index]

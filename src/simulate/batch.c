@@ -124,6 +124,7 @@ static CzStatus choose(CzBatch *batch, const CzModel *model, int n_design,
     batch->n_car = model->n_car;
     batch->n_design = n_design;
     batch->brief = options->brief;
+    batch->keeps_pulses = options->keep_pulses || options->record;
     batch->integrator = options->integrator;
     batch->track = track_of(model, options->track);
     batch->step = options->time_step > 0.0 ? options->time_step : model->time_step;

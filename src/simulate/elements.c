@@ -7,6 +7,9 @@
 
 #include "base/error.h"
 #include "simulate/devices.h"
+#include "simulate/pulse.h"
+
+#define CFC 60.0 /* channel frequency class of decelerations (SAE J211) [Hz] */
 
 /* Usable stroke of a curve in a lane; infinite when it is unlimited. */
 static double usable(const CzBatch *batch, int curve, size_t lane) {
@@ -333,13 +336,39 @@ static double survival_shortening(const CzBatch *batch, int car, int design) {
     return lost;
 }
 
-CzStatus cz_vehicle_fill(const CzBatch *batch, int car, int design, CzVehicleResult *result) {
+/* Fills the decelerations, and the results that only a kept pulse has. */
+static CzStatus fill_decelerations(const CzPulse *pulse, bool is_kept, CzVehicleResult *result) {
+    result->mean_deceleration_contact =
+        cz_pulse_contact_mean(pulse, CZ_PULSE_FLOOR, CZ_PULSE_SHORTEST, result->contact_window);
+    result->mean_deceleration_120ms =
+        cz_pulse_sliding_mean(pulse, CZ_PULSE_WINDOW, result->window_120ms);
+    result->peak_deceleration_cfc60 = NAN;
+    for (int i = 0; i < CZ_N_FREE_FLIGHT; ++i) {
+        double time;
+        result->secondary_impact[i] =
+            is_kept ? cz_pulse_secondary_impact(pulse, 0.1 * (i + 1), &time) : NAN;
+    }
+    return is_kept ? cz_pulse_filtered_peak(pulse, CFC, &result->peak_deceleration_cfc60) : CZ_OK;
+}
+
+CzStatus cz_vehicle_fill(const CzBatch *batch, int car, int design, CzArena *arena, CzPulse *kept,
+                         CzVehicleResult *result) {
     const CzCar *description = cz_car(batch, car, design);
     const size_t lane = cz_lane(batch, car, design);
     snprintf(result->name, sizeof result->name, "%s", description->name);
     result->final_speed = cz_velocity(batch, CZ_DOF(body.x), lane);
     result->peak_deceleration = cz_extreme(batch, CZ_EXTREME(body_acceleration), lane);
-    CZ_TRY(cz_history_decelerations(batch, car, design, result));
+    CzArena own = {0};
+    CzPulse pulse;
+    CzStatus status = CZ_STATUS_NO_MEMORY;
+    if (cz_history_pulse(batch, car, design, kept != NULL ? arena : &own, &pulse))
+        status = fill_decelerations(&pulse, kept != NULL, result);
+    if (kept != NULL && status == CZ_OK)
+        status = cz_pulse_list_windows(&pulse, arena) ? CZ_OK : CZ_STATUS_NO_MEMORY;
+    if (kept != NULL)
+        *kept = pulse;
+    cz_arena_free(&own);
+    CZ_TRY(status);
     const bool full = description->model == CZ_MODEL_FULL;
     for (int axle = 0; axle < 4; ++axle) {
         result->wheel_lift[axle] = extreme_if(full, batch, CZ_EXTREME(lift[axle]), lane);

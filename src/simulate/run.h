@@ -77,6 +77,7 @@ typedef struct CzBatch {
     CzTrackAccount *in_track;        /* by block */
     int n_design;                    /* in the lanes: runs that are over may have left them */
     bool brief;                      /* end as soon as the results are final */
+    bool keeps_pulses;
     CzTrack track;
     CzIntegrator integrator;
     struct CzReference *reference; /* NULL under the fixed-step scheme */
@@ -146,10 +147,8 @@ static inline const CzEnd *cz_end_at(const CzBatch *batch, int car, int design, 
 /* history.c */
 CZ_MUST_CHECK CzStatus cz_history_add(const CzBatch *batch, int design);
 void cz_history_free(CzHistory *history);
-/* Largest mean deceleration of a car over windows of net contact force, and over any window of 120
- * ms or more, with these windows. */
-CZ_MUST_CHECK CzStatus cz_history_decelerations(const CzBatch *batch, int car, int design,
-                                                CzVehicleResult *result);
+/* The pulse of a car, in memory of the arena; false when there is none left. */
+bool cz_history_pulse(const CzBatch *batch, int car, int design, CzArena *arena, CzPulse *pulse);
 
 /* accounts.c: updates the accounts of a design for this step. */
 void cz_accounts_take(const CzBatch *batch, int design);
@@ -248,8 +247,9 @@ int cz_interface_elements(const CzBatch *batch, int interface, int design,
 bool cz_outer_end_fill(const CzBatch *batch, int design, int side, CzElementResult *result);
 /* What the elements of an interface have dissipated so far [J], as cz_interface_fill reports it. */
 double cz_interface_energy(const CzBatch *batch, int interface, int design);
-CZ_MUST_CHECK CzStatus cz_vehicle_fill(const CzBatch *batch, int car, int design,
-                                       CzVehicleResult *result);
+/* Fills the results of a car, whose pulse is kept in the arena unless it is NULL. */
+CZ_MUST_CHECK CzStatus cz_vehicle_fill(const CzBatch *batch, int car, int design, CzArena *arena,
+                                       CzPulse *pulse, CzVehicleResult *result);
 
 /* rest.c: of the cars of a single design; all NaN for a car without running gear (n_car). */
 CZ_MUST_CHECK CzStatus cz_rest_of_cars(const CzModel *model, const CzLanes *lanes, CzRest *rest,

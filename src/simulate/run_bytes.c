@@ -19,6 +19,34 @@ static void get_interface(CzReading *reading, CzInterfaceResult *interface) {
     cz_get(reading, interface->element, (size_t)interface->n_element, sizeof *interface->element);
 }
 
+static void put_pulses(CzMemoryText *bytes, const CzRunSummary *summary) {
+    const int n_pulse = summary->pulse != NULL ? summary->n_vehicle : 0;
+    cz_put_int(bytes, n_pulse);
+    for (int i = 0; i < n_pulse; i++) {
+        const CzPulse *pulse = &summary->pulse[i];
+        cz_put(bytes, pulse, 1, sizeof *pulse);
+        cz_put_numbers(bytes, pulse->speed, (size_t)pulse->n_sample);
+        cz_put_numbers(bytes, pulse->force, (size_t)pulse->n_sample);
+        cz_put(bytes, pulse->window, (size_t)pulse->n_window, sizeof *pulse->window);
+    }
+}
+
+/* NULL without pulses, and without memory for them. */
+static const CzPulse *get_pulses(CzReading *reading, CzArena *arena) {
+    const int n_pulse = cz_get_int(reading);
+    reading->has_ended |= n_pulse > 0 && (size_t)n_pulse > reading->n_left / sizeof(CzPulse);
+    CzPulse *pulse = n_pulse > 0 && !reading->has_ended
+                         ? cz_arena_allocate(arena, (size_t)n_pulse, sizeof *pulse)
+                         : NULL;
+    for (int i = 0; pulse != NULL && i < n_pulse; i++) {
+        cz_get(reading, &pulse[i], 1, sizeof *pulse);
+        pulse[i].speed = cz_get_items(reading, arena, pulse[i].n_sample, sizeof(double));
+        pulse[i].force = cz_get_items(reading, arena, pulse[i].n_sample, sizeof(double));
+        pulse[i].window = cz_get_items(reading, arena, pulse[i].n_window, sizeof *pulse[i].window);
+    }
+    return pulse;
+}
+
 void cz_run_put(CzMemoryText *bytes, const CzRun *run) {
     const CzRunSummary *summary = &run->summary;
     const CzChannels *channels = &run->channels;
@@ -29,6 +57,7 @@ void cz_run_put(CzMemoryText *bytes, const CzRun *run) {
     for (int i = 0; i < summary->n_interface; i++)
         put_interface(bytes, &summary->interface[i]);
     cz_put(bytes, summary->vehicle, (size_t)summary->n_vehicle, sizeof *summary->vehicle);
+    put_pulses(bytes, summary);
     cz_put_int(bytes, n_budget);
     cz_put(bytes, summary->budget, (size_t)n_budget, sizeof *summary->budget);
     cz_put(bytes, summary->event, (size_t)summary->n_event, sizeof *summary->event);
@@ -52,6 +81,7 @@ static void get_summary(CzReading *reading, CzRun *run) {
         get_interface(reading, &interface[i]);
     summary->interface = interface;
     summary->vehicle = cz_get_items(reading, arena, summary->n_vehicle, sizeof *summary->vehicle);
+    summary->pulse = get_pulses(reading, arena);
     const int n_budget = cz_get_int(reading);
     summary->budget =
         n_budget > 0 ? cz_get_items(reading, arena, n_budget, sizeof *summary->budget) : NULL;

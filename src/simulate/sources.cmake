@@ -15,6 +15,7 @@ set(CZ_SOURCES_simulate
     history.c
     input_curve.c
     interface_load.c
+    pulse.c
     reference.c
     rest.c
     run.c

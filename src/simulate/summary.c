@@ -119,6 +119,9 @@ static void blank_interface(CzInterfaceResult *result) {
 static void blank_vehicle(CzVehicleResult *result) {
     result->final_speed = result->peak_deceleration = NAN;
     result->mean_deceleration_contact = result->mean_deceleration_120ms = NAN;
+    result->peak_deceleration_cfc60 = NAN;
+    for (int i = 0; i < CZ_N_FREE_FLIGHT; ++i)
+        result->secondary_impact[i] = NAN;
     for (int axle = 0; axle < 4; ++axle)
         result->wheel_lift[axle] = result->wheel_lift_time[axle] = NAN;
     result->bogie_lift = result->bogie_lift_time = result->max_pitch = result->link_force =
@@ -172,6 +175,12 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
         cz_arena_allocate(&run->arena, (size_t)model->n_car, sizeof *vehicle);
     if (interface == NULL || vehicle == NULL)
         return CZ_STATUS_NO_MEMORY;
+    CzPulse *pulse = NULL;
+    if (batch->keeps_pulses) {
+        pulse = cz_arena_allocate(&run->arena, (size_t)model->n_car, sizeof *pulse);
+        if (pulse == NULL)
+            return CZ_STATUS_NO_MEMORY;
+    }
     const bool failed = progress->failure[0] != '\0';
     cz_accounts_take(batch, design);
     CzRunSummary *summary = &run->summary;
@@ -208,7 +217,8 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
             blank_interface(&interface[i]);
     }
     for (int i = 0; i < model->n_car; ++i) {
-        CZ_TRY(cz_vehicle_fill(batch, i, design, &vehicle[i]));
+        CZ_TRY(cz_vehicle_fill(batch, i, design, &run->arena, pulse != NULL ? &pulse[i] : NULL,
+                               &vehicle[i]));
         if (failed)
             blank_vehicle(&vehicle[i]);
     }
@@ -223,5 +233,6 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
     summary->interface = interface;
     summary->n_vehicle = model->n_car;
     summary->vehicle = vehicle;
+    summary->pulse = pulse;
     return CZ_OK;
 }

@@ -54,6 +54,27 @@ static void bounds_and_starts_that_do_not_fit_are_refused(void **state) {
                    "two variables");
 }
 
+static void parameters_that_a_metric_does_not_have_are_refused(void **state) {
+    (void)state;
+    static const struct {
+        const char *metric, *words;
+    } wrong[] = {
+        {"vehicles.siv_m_s", "needs its free-flight distance"},
+        {"vehicles.siv_m_s(gap_mm=600)", "has no parameter 'gap_mm'"},
+        {"vehicles.siv_m_s(gap_m=x)", "'gap_m=x' is not a parameter and its number"},
+        {"vehicles.siv_m_s(0.6)", "'0.6' is not a parameter and its number"},
+        {"vehicles.siv_m_s(gap_m=0)", "gap_m of vehicles.siv_m_s must be from 0.001 to 10"},
+        {"vehicles.siv_m_s(gap_m=0.6", "no metric 'vehicles.siv_m_s(gap_m=0.6'"},
+        {"interfaces.peak_force_kN(window_ms=1)", "has no parameter 'window_ms'"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        char more[256];
+        snprintf(more, sizeof more, "checks: {limits: [{name: a, metric: \"%s\", max: 1}]}\n",
+                 wrong[i].metric);
+        expect_refusal(more, wrong[i].words);
+    }
+}
+
 static void limits_of_unknown_metrics_are_refused(void **state) {
     (void)state;
     expect_refusal("checks: {limits: [{name: a, metric: interfaces.peak_force, max: 1}]}\n",
@@ -76,6 +97,7 @@ int main(void) {
         cmocka_unit_test(softening_the_opponent_is_refused),
         cmocka_unit_test(bounds_and_starts_that_do_not_fit_are_refused),
         cmocka_unit_test(limits_of_unknown_metrics_are_refused),
+        cmocka_unit_test(parameters_that_a_metric_does_not_have_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

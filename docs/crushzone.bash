@@ -72,7 +72,7 @@ _crushzone() {
     corridor) options='--output --force --json --quiet --set --time-step-ms --seed --part --curves --no-scatter --jobs --csv-sep --csv-decimal --color --help' ;;
     dakota) options='--quiet --set --scenario --time-step-ms --problem --jobs --color --help' ;;
     export) options='--quiet --sqlite --help' ;;
-    explain) options='--json --quiet --set --scenario --time-step-ms --jobs --color --help' ;;
+    explain) options='--json --quiet --set --scenario --time-step-ms --check --jobs --color --help' ;;
     verify) options='--json --quiet --verbose --set --scenario --time-step-ms --jobs --color --help' ;;
     bench) options='--json --quiet --set --scenario --time-step-ms --rounds --color --help' ;;
     serve) options='--quiet --set --scenario --time-step-ms --jobs --color --help' ;;

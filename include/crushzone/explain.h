@@ -1,5 +1,5 @@
-/* Cause of an override, or the margin against one: causes in order, and changes that would prevent
- * or lead to it. */
+/* Explanation of checks: when and where the deciding value arose, what carried the force, and which
+ * changes would help. Of an override, or the margin against one, also its causes in order. */
 #ifndef CRUSHZONE_EXPLAIN_H
 #define CRUSHZONE_EXPLAIN_H
 
@@ -44,11 +44,74 @@ typedef struct CzIndicator {
 /* Most indicators of one run. */
 enum { CZ_MOST_INDICATORS = 24 };
 
+enum { CZ_MOST_CARRIERS = 8, CZ_MOST_STATES = 12, CZ_MOST_EXPLAINED = 16 };
+
+/* What the amounts of carriers are. */
+typedef enum CzCarried {
+    CZ_CARRIED_NOTHING, /* a check of the design alone */
+    CZ_CARRIED_FORCE,   /* force at the time, or mean force over the window [N] */
+    CZ_CARRIED_ENERGY   /* dissipated energy of the run [J] */
+} CzCarried;
+
+/* A load path, or an element, with its part of the whole. */
+typedef struct CzCarrier {
+    char what[CZ_INTERFACE_ROOM + CZ_WHERE_ROOM]; /* such as "couplers of A4-B1" */
+    double amount;
+    double share; /* of the sum over all carriers */
+} CzCarrier;
+
+/* State of an element at the time of a check. */
+typedef struct CzElementState {
+    char interface[CZ_INTERFACE_ROOM];
+    char element[CZ_WHERE_ROOM];
+    const char *state;  /* "bottomed out", "sheared off", "tube exhausted", "stroke left" or "not
+                           used"; static */
+    double time;        /* of the event [s]; NaN without */
+    double stroke_used; /* largest over the whole run [-] */
+} CzElementState;
+
+/* A change of one number that was run in all scenarios, and its effect. */
+typedef struct CzTriedChange {
+    char name[CZ_PATH_ROOM]; /* of the variable of the file, or the path where it is written */
+    char unit[16];
+    double value, tried;
+    double change; /* relative; of a value of 0 over that of CzVaryingNumber */
+    double margin; /* of the check, the smallest over its scenarios; 1 for a satisfied yes or no,
+                      -0.01 for a violated one */
+    bool passes;   /* the check passes in all of them */
+    int n_broken;  /* other checks that passed before and fail now */
+    char other[CZ_LABEL_ROOM], other_scenario[CZ_NAME_ROOM]; /* the other check with the smallest
+                                                                margin now; empty for none */
+    double other_margin, other_before;                       /* its margin now and before */
+} CzTriedChange;
+
+/* One check, explained at its worst scenario. */
+typedef struct CzExplainedCheck {
+    CzCheckResult check;
+    double time[2]; /* begin and end of the deciding time [s]; NaN when unknown */
+    char interface[CZ_INTERFACE_ROOM]; /* the place, or the one behind it; empty for none */
+    CzCarried carried;
+    int n_carrier;
+    CzCarrier carrier[CZ_MOST_CARRIERS]; /* the largest first */
+    int n_state;
+    CzElementState state[CZ_MOST_STATES];
+    double margin; /* of all its scenarios in the runs of the changes, without a change */
+    int n_change;
+    CzTriedChange *change; /* those that raise its margin: first those with which it passes and no
+                              other check breaks, by their size, then by margin (n_change) */
+} CzExplainedCheck;
+
 /* Open result, owns its memory; texts are borrowed from the evaluator. */
 typedef struct CzExplanation {
-    const char *scenario; /* the one with the smallest margin against override */
-    bool climbed;         /* an override occurred in it */
-    double climb_time;    /* [s]; NaN when not */
+    int n_check;
+    CzExplainedCheck *check; /* failing checks, each once, or those asked for; the one with the
+                                smallest margin when none fails (n_check) */
+    int n_tried;             /* numbers whose changes were run */
+    bool has_climbing;       /* the following members are filled; else no vehicle could climb, or
+                                no check of climbing was asked for, and `run` is NULL */
+    const char *scenario;    /* the one with the smallest margin against override */
+    bool climbed;            /* an override occurred in it */
+    double climb_time;       /* [s]; NaN when not */
     CzVerdict verdict;   /* FAIL when a margin against override is violated, NOT CHECKED when one is
                             unknown */
     CzCheckResult worst; /* the check with the smallest margin against override */
@@ -68,6 +131,8 @@ typedef struct CzExplanation {
 } CzExplanation;
 
 typedef struct CzExplainOptions {
+    int n_check;
+    const char *const *check; /* names of the checks to explain; 0: those that fail (n_check) */
     bool search; /* search for the changes that would reverse the verdict; else indicators only
                   */
     const volatile sig_atomic_t *stop; /* a flag that ends the search when not 0; NULL when none */
@@ -76,12 +141,16 @@ typedef struct CzExplainOptions {
 } CzExplainOptions;
 CZ_API CzExplainOptions cz_explain_options_default(void);
 
-/* Runs the evaluator's scenarios as written and explains the one with the smallest margin against
- * override: wheel lift, overlap and vertical capacity of the anti-climbers, by the problem's own
- * limits, else by 75 % of the flange height, one rib pitch, and the whole capacity. Then each value
- * of a list is varied by itself, upwards and downwards, in batches. Statuses: CZ_OK,
- * CZ_STATUS_RUN_FAILED when a run failed or is incomplete, CZ_STATUS_INPUT when no vehicle can
- * climb, CZ_STATUS_INTERRUPTED, CZ_STATUS_NO_MEMORY. */
+/* Runs the evaluator's scenarios as written and explains its checks. Then each number that a search
+ * may change is changed by itself and run in all scenarios: the variables of the problem, or
+ * without them every such number of the trains behind.
+ *
+ * The scenario with the smallest margin against override is explained too: wheel lift, overlap and
+ * vertical capacity of the anti-climbers, by the problem's own limits, else by 75 % of the flange
+ * height, one rib pitch, and the whole capacity. There each value of a list is varied by itself,
+ * upwards and downwards, in batches. Statuses: CZ_OK, CZ_STATUS_RUN_FAILED when a run failed or is
+ * incomplete, CZ_STATUS_INPUT for a name that is no check, or when there is no check and no vehicle
+ * can climb, CZ_STATUS_INTERRUPTED, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_explain(CzEvaluator *evaluator, const CzExplainOptions *options,
                                          CzExplanation **explanation, CzError *error);
 CZ_API void cz_explanation_free(CzExplanation *explanation);

@@ -13,13 +13,15 @@ static int end_early(const CzSession *session, CzStatus status, const CzError *e
     return 128 + cz_interrupt_signal();
 }
 
-/* ---- explain: the cause of an override, and changes that prevent it ---- */
+/* ---- explain: checks and overrides, and changes that help ---- */
 
 static int explain(CzSession *session) {
     const CzArguments *arguments = session->arguments;
     CzExplainOptions options = cz_explain_options_default();
     CzExplanation *explanation = NULL;
     CzError error = {0};
+    options.n_check = arguments->n_check;
+    options.check = arguments->check;
     options.stop = cz_interrupt_flag();
     options.progress = cz_progress_count;
     options.progress_data = (void *)arguments;

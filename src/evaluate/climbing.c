@@ -33,6 +33,10 @@ static int group_of(const char *metric) {
     return -1;
 }
 
+bool cz_climbing_judges(const CzMetricKind *kind) {
+    return group_of(kind->name) >= 0 || strcmp(kind->name, "run.override") == 0;
+}
+
 CzClimbing cz_climbing_of(const CzEvaluator *evaluator, int scenario) {
     CzClimbing climbing = {.scenario = scenario};
     bool has[N_GROUP] = {false};

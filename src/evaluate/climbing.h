@@ -13,6 +13,9 @@ typedef struct CzClimbing {
     CzCheck check[CZ_MOST_CLIMBING_CHECKS];
 } CzClimbing;
 
+/* Whether a check of this kind is one of climbing. */
+bool cz_climbing_judges(const CzMetricKind *kind);
+
 /* The problem's own limits in a scenario, and default limits where it has none. */
 CzClimbing cz_climbing_of(const CzEvaluator *evaluator, int scenario);
 

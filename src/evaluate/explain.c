@@ -1,5 +1,5 @@
-/* Cause of an override: the run with the smallest climbing margin, its indicators, and searches
- * over one value at a time.
+/* Explanation of checks, and the cause of an override: the run with the smallest climbing margin,
+ * its indicators, and searches over one value at a time.
  *
  * Each value is changed by the steps of a list, up and down, and then between the last step that
  * keeps the verdict and the first that changes it. All candidates of a round are designs of one
@@ -15,8 +15,10 @@
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "evaluate/climbing.h"
+#include "base/text.h"
 #include "evaluate/candidate_changes.h"
+#include "evaluate/climbing.h"
+#include "evaluate/explain_parts.h"
 #include "evaluate/tasks.h"
 #include "simulate/batch.h"
 
@@ -371,8 +373,8 @@ static int vehicle_at(const CzRunSummary *run, const char *where) {
 }
 
 /* Removes the run with the smallest climbing margin from an evaluation and keeps it. */
-static CzStatus choose_run(const CzEvaluator *evaluator, CzEvaluation *evaluation, Search *search,
-                           CzExplanation *explanation, CzError *error) {
+static void choose_run(const CzEvaluator *evaluator, CzEvaluation *evaluation, Search *search,
+                       CzExplanation *explanation) {
     int chosen = -1, chosen_run = -1, run = 0;
     for (int s = 0; s < evaluator->n_scene; s++) {
         if (evaluator->model[s] == NULL)
@@ -382,13 +384,6 @@ static CzStatus choose_run(const CzEvaluator *evaluator, CzEvaluation *evaluatio
         const CzCheckResult worst = cz_climbing_judge(
             &climbing, evaluator, cz_vehicles_in(evaluator, evaluator->vehicles, climbing.scenario),
             summary);
-        if (summary->status != CZ_OK)
-            return cz_fail(error, CZ_STATUS_RUN_FAILED, "scenario '%s' failed", summary->scenario);
-        if (summary->ended == CZ_ENDED_INCOMPLETE)
-            return cz_fail(
-                error, CZ_STATUS_RUN_FAILED,
-                "scenario '%s' did not meet its end criterion within simulation.longest_s = %g",
-                summary->scenario, cz_problem_input(evaluator->problem)->simulation.longest);
         if (!isnan(worst.margin) && (chosen < 0 || worst.margin < explanation->worst.margin)) {
             chosen = s;
             chosen_run = run;
@@ -397,10 +392,9 @@ static CzStatus choose_run(const CzEvaluator *evaluator, CzEvaluation *evaluatio
         }
         run++;
     }
+    explanation->has_climbing = chosen >= 0;
     if (chosen < 0)
-        return cz_fail(error, CZ_STATUS_INPUT,
-                       "no full vehicle with declared bump and lift stops and no pair of "
-                       "anti-climbers could climb: override is not possible");
+        return;
     explanation->run = evaluation->run[chosen_run];
     evaluation->run[chosen_run] = NULL;
     const CzRunSummary *summary = cz_run_summary(explanation->run);
@@ -411,7 +405,17 @@ static CzStatus choose_run(const CzEvaluator *evaluator, CzEvaluation *evaluatio
     explanation->verdict = summary->beyond_validity ? CZ_VERDICT_FAIL : explanation->worst.verdict;
     search->is_broken = explanation->worst.margin < 0;
     find_indicators(summary, explanation);
-    return CZ_OK;
+}
+
+/* Whether a check of climbing is to be explained. */
+static bool wants_climbing(const CzExplainOptions *options, const CzEvaluator *evaluator) {
+    bool wants = options->n_check == 0;
+    for (int i = 0; i < evaluator->list.n_check && !wants; i++) {
+        const CzCheck *check = &evaluator->list.check[i];
+        wants = check->metric.kind != NULL && cz_climbing_judges(check->metric.kind) &&
+                cz_text_is_among(check->name, options->n_check, options->check);
+    }
+    return wants;
 }
 
 static CzStatus explain(CzEvaluator *evaluator, const CzExplainOptions *options,
@@ -419,12 +423,27 @@ static CzStatus explain(CzEvaluator *evaluator, const CzExplainOptions *options,
     CzEvaluation evaluation = {0};
     Search search = {.evaluator = evaluator, .options = options};
     cz_evaluator_set_stop(evaluator, options->stop);
+    explanation->climb_time = explanation->worst.margin = explanation->worst.value =
+        explanation->worst.limit = NAN;
+    explanation->verdict = CZ_VERDICT_NOT_CHECKED;
     CZ_TRY(cz_evaluate(evaluator, 1, NULL, true, &evaluation, error));
-    CzStatus status = choose_run(evaluator, &evaluation, &search, explanation, error);
+    CzStatus status = evaluation.status == CZ_OK
+                          ? CZ_OK
+                          : cz_fail(error, CZ_STATUS_RUN_FAILED, "%s", evaluation.failure);
+    if (status == CZ_OK)
+        status = cz_explain_checks(evaluator, &evaluation, options, explanation, error);
+    if (status == CZ_OK && wants_climbing(options, evaluator))
+        choose_run(evaluator, &evaluation, &search, explanation);
     cz_evaluation_free(&evaluation);
-    if (status == CZ_OK && options->search)
+    if (status == CZ_OK && explanation->n_check == 0 && !explanation->has_climbing)
+        status = cz_fail(error, CZ_STATUS_INPUT,
+                         "the problem has no check, and no full vehicle with declared bump and "
+                         "lift stops and no pair of anti-climbers could climb");
+    if (status == CZ_OK && options->search && explanation->n_check > 0)
+        status = cz_explain_changes(evaluator, options, explanation, error);
+    if (status == CZ_OK && options->search && explanation->has_climbing)
         status = search_changes(&search, explanation, error);
-    explanation->n_run = search.n_run;
+    explanation->n_run += search.n_run;
     return status;
 }
 
@@ -448,6 +467,9 @@ CzStatus cz_explain(CzEvaluator *evaluator, const CzExplainOptions *options,
 void cz_explanation_free(CzExplanation *explanation) {
     if (explanation == NULL)
         return;
+    for (int i = 0; i < explanation->n_check; i++)
+        free(explanation->check[i].change);
+    free(explanation->check);
     cz_run_free(explanation->run);
     free(explanation->candidate);
     free(explanation);

@@ -13,6 +13,8 @@ set(CZ_SOURCES_evaluate
     evaluator_parts.c
     evaluator_study.c
     explain.c
+    explain_changes.c
+    explain_checks.c
     activation.c
     candidate_changes.c
     case_names.c

@@ -34,6 +34,7 @@ set(CZ_SOURCES_problem
     strokes.c
     trace.c
     usual.c
+    varying.c
     write_keys.c
     write_resolved.c
     write_schema.c

@@ -113,10 +113,10 @@ CzStatus cz_report_write_json(const CzReport *report, FILE *stream, CzError *err
         data = report->benchmark;
         break;
     case CZ_REPORT_EXPLANATION:
-        context.run = cz_run_summary(explanation->run);
+        context.run = explanation->run != NULL ? cz_run_summary(explanation->run) : NULL;
         context.wall_s = explanation->wall_s;
         context.order = order;
-        if (context.run->budget != NULL)
+        if (context.run != NULL && context.run->budget != NULL)
             context.n_order = cz_budget_order(&context.run->budget[explanation->vehicle], order);
         data = explanation;
         break;

@@ -1,7 +1,8 @@
-/* The cause of an override, on a terminal. */
+/* Explained checks and the cause of an override, on a terminal. */
 #include "crushzone/report.h"
 
 #include "report/checks_table.h"
+#include "report/explained_checks.h"
 #include "report/figure.h"
 #include "report/tables.h"
 #include "report/units.h"
@@ -131,6 +132,10 @@ static void write_candidates(const CzExplanation *explanation, bool turning, CzT
 
 void cz_explanation_write_table(const CzReport *report, CzTerminal *terminal) {
     const CzExplanation *explanation = report->explanation;
+    cz_explained_checks_write(explanation, terminal);
+    if (!explanation->has_climbing)
+        return;
+    fputs(explanation->n_check > 0 ? "\nOverride\n" : "", terminal->stream);
     write_head(explanation, terminal);
     write_indicators(explanation, terminal);
     write_budget(explanation, terminal);

@@ -229,6 +229,18 @@ static const CzSample *nth_failed(const CzSampling *sampling, int n) {
     return sample;
 }
 
+/* ---- explanations ---- */
+
+/* The explained check that has a carrier. */
+static const CzExplainedCheck *explained_of(const CzResultContext *context,
+                                            const CzCarrier *carrier) {
+    const CzExplanation *explanation = context->report->explanation;
+    const CzExplainedCheck *explained = explanation->check;
+    while (carrier < explained->carrier || carrier >= explained->carrier + explained->n_carrier)
+        explained++;
+    return explained;
+}
+
 /* ---- corridors ---- */
 
 static const char *curve_words(CzResultContext *context, const CzTriedCurve *curve) {

@@ -16,6 +16,7 @@ set(CZ_SOURCES_report
     documents.c
     drawn.c
     elevation.c
+    explained_checks.c
     explanation.c
     export.c
     figure.c

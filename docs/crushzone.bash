@@ -14,6 +14,7 @@ _crushzone() {
     --time-step-ms) return ;;
     --integrator) words='zhai erk adams' ;;
     --depfile) COMPREPLY=($(compgen -f -- "$word")); return ;;
+    --junit) COMPREPLY=($(compgen -f -- "$word")); return ;;
     --problem) COMPREPLY=($(compgen -f -- "$word")); return ;;
     --sqlite) COMPREPLY=($(compgen -f -- "$word")); return ;;
     --vary) words='PATH=A:B:N A,B,C' ;;
@@ -61,8 +62,8 @@ _crushzone() {
         return
     fi
     case ${COMP_WORDS[1]} in
-    run) options='--output --force --json --quiet --verbose --set --scenario --time-step-ms --integrator --iso-mme --depfile --strict --jobs --csv-sep --csv-decimal --color --help' ;;
-    check) options='--output --force --json --quiet --verbose --set --scenario --time-step-ms --integrator --depfile --jobs --csv-sep --csv-decimal --color --help' ;;
+    run) options='--output --force --json --quiet --verbose --set --scenario --time-step-ms --integrator --iso-mme --depfile --junit --strict --jobs --csv-sep --csv-decimal --color --help' ;;
+    check) options='--output --force --json --quiet --verbose --set --scenario --time-step-ms --integrator --depfile --junit --jobs --csv-sep --csv-decimal --color --help' ;;
     optimise | optimize) options='--output --json --quiet --verbose --set --time-step-ms --depfile --algorithm --evaluations --seed --resume --max-time --jobs --csv-sep --csv-decimal --color --help' ;;
     sweep) options='--output --force --json --quiet --set --scenario --time-step-ms --strict --vary --metric --check --shard --jobs --csv-sep --csv-decimal --color --help' ;;
     sample) options='--output --force --json --quiet --set --time-step-ms --seed --samples --shard --jobs --csv-sep --csv-decimal --color --help' ;;

@@ -46,12 +46,18 @@ typedef enum CzVerdict {
 } CzVerdict;
 CZ_API const char *cz_verdict_text(CzVerdict verdict);
 CZ_API bool cz_verdict_passes(CzVerdict verdict); /* a pass, provisional or not */
+/* Whether it is a pass while n_not_covered requirements of the profile cannot be checked, and its
+ * words, such as "pass (screening)". */
+CZ_API bool cz_verdict_is_screening(CzVerdict verdict, int n_not_covered);
+CZ_API const char *cz_verdict_words(CzVerdict verdict, int n_not_covered);
 
 /* One check of one scenario. Texts are borrowed from the evaluator. */
 typedef struct CzCheckResult {
     const char *name;
     const char *scenario;      /* "design" for a check of the design itself */
     const char *family;        /* family of scenarios that it belongs to; NULL for none */
+    const char *metric;        /* kind of metric that it judges, such as "vehicles.flange_share";
+                                  NULL of a match, and where it cannot be checked */
     char where[CZ_WHERE_ROOM]; /* place of the worst value */
     double when[2]; /* start and end of the time of the value [s]; NaN when that is not known, or
                        there is no value */
@@ -64,6 +70,7 @@ typedef struct CzCheckResult {
     bool is_flag;    /* a yes or no */
     bool is_omitted; /* its scenario was left out by CzEvaluatorOptions.scenario, so it is not
                         checked */
+    bool has_no_run; /* not checked because its scenario was left out, failed or is incomplete */
     bool beyond_validity; /* its run went beyond the model's validity: the value may be of the time
                              after that, and a total is NaN */
     CzVerdict verdict;
@@ -123,8 +130,8 @@ typedef struct CzEvaluation {
     CzCheckResult *check; /* the matches of a fit last (n_check) */
     CzVerdict verdict;    /* over all checks: cz_verdict_over */
     bool beyond_validity; /* a vehicle climbed in a run */
-    int n_not_covered; /* requirements of the profile that this program cannot compute; they are not
-                          checks and do not count in a verdict */
+    int n_not_covered; /* requirements of the profile that this program cannot check: a pass is then
+                          one by screening (cz_verdict_is_screening) */
     const char *const *not_covered; /* borrowed from the evaluator (n_not_covered) */
     int n_not_applicable; /* scenarios of the profile that do not apply, each with the reason */
     const char *const *not_applicable; /* borrowed from the evaluator (n_not_applicable) */
@@ -145,6 +152,9 @@ CZ_API void cz_evaluation_free(CzEvaluation *evaluation);
  * confirmed; else a pass. */
 CZ_API CzVerdict cz_verdict_over(const CzEvaluation *evaluation, int n_name,
                                  const char *const *name);
+
+/* The same over the checks of a scenario or family, or of the "design". */
+CZ_API CzVerdict cz_verdict_in(const CzEvaluation *evaluation, const char *scenario);
 
 /* Whether a check is worse than another: fails by margin come first, then failed yes-or-no checks,
  * checks that were not made, passes by margin, checks that do not apply. */

@@ -232,6 +232,20 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_check_file(const CzProblem *problem, con
 CZ_MUST_CHECK CZ_API CzStatus cz_report_write_file(const char *path, CzReportWriter *write,
                                                    const void *data, CzError *error);
 
+/* Verdicts as JUnit XML, which the servers of continuous integration read: a suite for each
+ * scenario, a case for each check; what is not checked is skipped, never passed (docs/report.md).
+ */
+typedef struct CzJunit CzJunit;
+
+/* NULL without memory. */
+CZ_API CzJunit *cz_junit_begin(void);
+/* Adds the suites of a run, or those of a file that could not be judged, with the reason. */
+CZ_API void cz_junit_add(CzJunit *junit, const CzReport *report);
+CZ_API void cz_junit_add_error(CzJunit *junit, const char *file, const char *why);
+/* Writes a CzJunit as a document; a CzReportWriter. Status: CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_junit_write(const void *junit, FILE *stream, CzError *error);
+CZ_API void cz_junit_free(CzJunit *junit);
+
 /* Writes the tables and documents of result folders into an SQLite database, completely or not at
  * all; an existing file is replaced (docs/exchange.md). Statuses: CZ_STATUS_INPUT for a folder that
  * is not a result folder, and in a library that was built without SQLite; CZ_STATUS_OUTPUT,

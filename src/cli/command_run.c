@@ -73,10 +73,12 @@ static int judge(const CzArguments *arguments, const CzEvaluation *evaluation) {
 }
 
 static int finish(CzSession *session, const CzEvaluation *evaluation, double wall_s,
-                  const char *folder) {
+                  const char *folder, CzJunit *junit) {
     const CzArguments *arguments = session->arguments;
     CzReport report = cz_session_report(session, CZ_REPORT_RUN, wall_s);
     report.evaluation = evaluation;
+    if (junit != NULL)
+        cz_junit_add(junit, &report);
     int code = cz_print_results(arguments, &report);
     if (code == 0)
         code = cz_keep_results(arguments, &report, folder);
@@ -87,7 +89,7 @@ static int finish(CzSession *session, const CzEvaluation *evaluation, double wal
     return judge(arguments, evaluation);
 }
 
-static int run_file(const CzArguments *arguments, const char *file) {
+static int run_file(const CzArguments *arguments, const char *file, CzJunit *junit) {
     char room[4096];
     const char *folder = folder_of(arguments, file, room);
     CzError error = {0};
@@ -98,19 +100,23 @@ static int run_file(const CzArguments *arguments, const char *file) {
             cz_session_check_folder(&session, folder, arguments->text[CZ_OPTION_REPLACE] != NULL);
     if (code == 0)
         code = cz_session_write_depfile(&session, folder, "summary.json");
-    if (code == 0) {
+    bool is_judged = code == 0;
+    if (is_judged) {
         CzEvaluation evaluation = {0};
         const double started = cz_clock();
         if (cz_evaluate(session.evaluator, 1, NULL, true, &evaluation, &error) != CZ_OK) {
             code = cz_session_fail(&session, &error);
+            is_judged = false;
         } else {
             const double wall_s = cz_clock() - started;
             if (arguments->text[CZ_OPTION_VERBOSE] != NULL)
                 print_runs(arguments, &evaluation);
-            code = finish(&session, &evaluation, wall_s, folder);
+            code = finish(&session, &evaluation, wall_s, folder, junit);
         }
         cz_evaluation_free(&evaluation);
     }
+    if (!is_judged && junit != NULL)
+        cz_junit_add_error(junit, file, "it could not be judged; standard error has the reason");
     cz_session_end(&session);
     return code;
 }
@@ -135,23 +141,50 @@ static int check_folders(const CzArguments *arguments) {
     return 0;
 }
 
-int cz_command_run(const CzArguments *arguments) {
-    int worst = check_folders(arguments);
-    if (worst == 0 && arguments->text[CZ_OPTION_ISO_MME] != NULL) {
-        char room[4096];
-        CzError error = {0};
-        if (folder_of(arguments, arguments->operand[0], room) == NULL) {
-            cz_fail(&error, CZ_STATUS_INPUT, "--iso-mme needs a result folder: give -o DIR");
-            worst = cz_tell_error(arguments, &error);
-        }
+/* Refuses what cannot be written, before anything is computed. */
+static int check_outputs(const CzArguments *arguments) {
+    const char *junit = arguments->text[CZ_OPTION_JUNIT];
+    char room[4096];
+    CzError error = {0};
+    const int code = check_folders(arguments);
+    if (code != 0)
+        return code;
+    if (arguments->text[CZ_OPTION_ISO_MME] != NULL &&
+        folder_of(arguments, arguments->operand[0], room) == NULL) {
+        cz_fail(&error, CZ_STATUS_INPUT, "--iso-mme needs a result folder: give -o DIR");
+        return cz_tell_error(arguments, &error);
     }
+    if (junit != NULL && cz_report_check_file(NULL, junit, false, &error) != CZ_OK)
+        return cz_tell_error(arguments, &error);
+    return 0;
+}
+
+static int write_junit(const CzArguments *arguments, const CzJunit *junit) {
+    const char *path = arguments->text[CZ_OPTION_JUNIT];
+    CzError error = {0};
+    if (cz_report_write_file(path, cz_junit_write, junit, &error) != CZ_OK)
+        return cz_tell_error(arguments, &error);
+    cz_tell(arguments, "verdicts in %s", path);
+    return 0;
+}
+
+int cz_command_run(const CzArguments *arguments) {
+    int worst = check_outputs(arguments);
     if (worst != 0)
         return worst;
+    CzJunit *junit = NULL;
+    if (arguments->text[CZ_OPTION_JUNIT] != NULL && (junit = cz_junit_begin()) == NULL) {
+        CzError error;
+        cz_fail(&error, CZ_STATUS_NO_MEMORY, "no memory for the JUnit document");
+        return cz_tell_error(arguments, &error);
+    }
     for (int i = 0; i < arguments->n_operand; i++) {
         if (i > 0)
             fputc('\n', stdout);
-        const int code = run_file(arguments, arguments->operand[i]);
+        const int code = run_file(arguments, arguments->operand[i], junit);
         worst = code > worst ? code : worst;
     }
-    return worst;
+    const int code = junit != NULL ? write_junit(arguments, junit) : 0;
+    cz_junit_free(junit);
+    return code > worst ? code : worst;
 }

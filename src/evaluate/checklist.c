@@ -5,6 +5,7 @@
 #include "evaluate/checks.h"
 #include "evaluate/devices.h"
 #include "evaluate/not_applicable.h"
+#include "evaluate/not_covered.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -145,8 +146,7 @@ static CzStatus append_profile(Builder *builder) {
             CZ_TRY(append_limit(builder, &profile->limits[i], profile->name, false));
     CZ_TRY(append_not_run(builder, profile));
     CZ_TRY(cz_not_applicable_list(builder->problem, builder->arena, builder->list, builder->error));
-    builder->list->n_not_covered = profile->not_checked.n_text;
-    builder->list->not_covered = profile->not_checked.text;
+    builder->list->not_covered = cz_not_covered(builder->problem, &builder->list->n_not_covered);
     return CZ_OK;
 }
 

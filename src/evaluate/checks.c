@@ -34,6 +34,7 @@ static CzCheckResult blank_result(const CzCheck *check, const CzScene *scene) {
     return (CzCheckResult){.name = check->name,
                            .scenario = scene != NULL ? scene->name : "design",
                            .family = scene != NULL ? scene->family : NULL,
+                           .metric = check->missing == NULL ? check->metric.kind->name : NULL,
                            .limit = check->limit,
                            .value = NAN,
                            .when = {NAN, NAN},
@@ -55,6 +56,7 @@ static CzVerdict passing_verdict(const CzCheck *check) {
 CzCheckResult cz_check_judge(const CzCheck *check, const CzSubject *subject, const char *failure) {
     CzCheckResult result = blank_result(check, subject->scene);
     result.why = check->missing != NULL ? check->missing : failure;
+    result.has_no_run = check->missing == NULL && failure != NULL;
     if (result.why != NULL)
         return result;
     const CzMetricValue value = cz_metric_value(&check->metric, subject, !check->is_minimum);

@@ -196,6 +196,7 @@ static CzStatus judge_matches(const CzEvaluator *evaluator, const CzVehicle *veh
             CZ_TRY(cz_match_judge(item, &subject, whole[s], match, NULL, error));
         CzCheckResult check = check_of(match);
         check.is_omitted = run[s] == NULL;
+        check.has_no_run = cz_failure_of(run[s]) != NULL;
         evaluation->check[evaluation->n_check++] = check;
         add_constraint(evaluation, &check, fabs(match->residual) - 1);
     }

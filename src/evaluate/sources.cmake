@@ -25,6 +25,7 @@ set(CZ_SOURCES_evaluate
     metric_parameters.c
     metric_values.c
     not_applicable.c
+    not_covered.c
     obstacle.c
     place.c
     result_units.c

@@ -4,6 +4,7 @@
 #include "report/figure.h"
 #include "report/sample_table.h"
 #include "report/tables.h"
+#include "report/verdict_words.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -167,6 +168,7 @@ void cz_challenge_write_table(const CzReport *report, CzTerminal *terminal) {
         cz_terminal_say(terminal, CZ_STYLE_BAD,
                         "%d of the runs gave no result, and count as failing.\n",
                         challenge->n_failed);
+    cz_screening_say_of(challenge->problem, terminal);
     if (challenge->is_interrupted)
         cz_terminal_say(terminal, CZ_STYLE_BAD, "INTERRUPTED: runs are missing.\n");
 }

@@ -6,20 +6,10 @@
 #include "report/runs.h"
 #include "report/table.h"
 #include "report/units.h"
+#include "report/verdict_words.h"
 
 #include <math.h>
 #include <string.h>
-
-/* Words of the tables: capital letters for all verdicts except a plain pass. */
-static const char *const verdict_words[] = {[CZ_VERDICT_PASS] = "pass",
-                                            [CZ_VERDICT_PROVISIONAL] = "PROVISIONAL",
-                                            [CZ_VERDICT_FAIL] = "FAIL",
-                                            [CZ_VERDICT_NOT_CHECKED] = "NOT CHECKED"};
-
-static const CzStyle verdict_styles[] = {[CZ_VERDICT_PASS] = CZ_STYLE_GOOD,
-                                         [CZ_VERDICT_PROVISIONAL] = CZ_STYLE_CAREFUL,
-                                         [CZ_VERDICT_FAIL] = CZ_STYLE_BAD,
-                                         [CZ_VERDICT_NOT_CHECKED] = CZ_STYLE_CAREFUL};
 
 static const char *spaced_unit(const CzCheckResult *check, char room[32]) {
     if (check->unit == NULL || check->unit[0] == '\0')
@@ -61,8 +51,7 @@ const char *cz_checks_value(char text[CZ_CHECK_ROOM], const CzCheckResult *check
     return text;
 }
 
-/* Whether a check does not apply to this problem, so that it passes. */
-static bool does_not_apply(const CzCheckResult *check) {
+bool cz_checks_does_not_apply(const CzCheckResult *check) {
     return isnan(check->value) && cz_verdict_passes(check->verdict);
 }
 
@@ -71,7 +60,7 @@ static bool does_not_apply(const CzCheckResult *check) {
 static bool is_worst_of_name(const CzEvaluation *evaluation, int i, bool of_family) {
     const CzCheckResult *check = evaluation->check;
     for (int k = 0; k < evaluation->n_check; k++) {
-        if (k == i || check[k].is_omitted || strcmp(check[k].name, check[i].name) != 0)
+        if (k == i || check[k].has_no_run || strcmp(check[k].name, check[i].name) != 0)
             continue;
         const bool is_sister = check[i].family != NULL && check[k].family != NULL &&
                                strcmp(check[i].family, check[k].family) == 0;
@@ -85,12 +74,12 @@ static bool is_worst_of_name(const CzEvaluation *evaluation, int i, bool of_fami
 }
 
 const char *cz_checks_word(const CzCheckResult *check) {
-    return does_not_apply(check) ? "n/a" : verdict_words[check->verdict];
+    return cz_checks_does_not_apply(check) ? "n/a" : cz_verdict_word(check->verdict);
 }
 
 bool cz_checks_is_shown(const CzEvaluation *evaluation, int i) {
     const bool fails = evaluation->check[i].verdict == CZ_VERDICT_FAIL;
-    return !evaluation->check[i].is_omitted && is_worst_of_name(evaluation, i, fails);
+    return !evaluation->check[i].has_no_run && is_worst_of_name(evaluation, i, fails);
 }
 
 static const char *or_empty(const char *text) {
@@ -100,8 +89,7 @@ static const char *or_empty(const char *text) {
 /* A margin to the right of the middle, a violation to the left. */
 static const CzBar margin_bar = {"bar", "margin", 30, 31, "#d0021b", "#009e73"};
 
-/* Time at which the value was reached, or window of a mean. */
-static void format_when(const CzCheckResult *check, size_t room, char *text) {
+void cz_checks_when(const CzCheckResult *check, size_t room, char *text) {
     char from[CZ_FIGURE_ROOM], to[CZ_FIGURE_ROOM];
     text[0] = '\0';
     if (!isfinite(check->when[0]))
@@ -126,7 +114,8 @@ static void put_source(CzReportTable *table, const CzCheckResult *check) {
 
 static void put_verdict(CzReportTable *table, const CzCheckResult *check) {
     cz_table_put_styled(table, cz_checks_word(check),
-                        does_not_apply(check) ? CZ_STYLE_PLAIN : verdict_styles[check->verdict]);
+                        cz_checks_does_not_apply(check) ? CZ_STYLE_PLAIN
+                                                        : cz_verdict_style(check->verdict));
 }
 
 static void put_check(CzReportTable *table, const CzCheckResult *check,
@@ -136,7 +125,7 @@ static void put_check(CzReportTable *table, const CzCheckResult *check,
     put_verdict(table, check);
     cz_table_put(table, check->where);
     cz_table_put(table, check->scenario);
-    format_when(check, sizeof text, text);
+    cz_checks_when(check, sizeof text, text);
     cz_table_put(table, text);
     cz_table_put(table, cz_checks_limit(text, check));
     cz_table_put_styled(table, before != NULL ? cz_checks_value(text, before) : "",
@@ -148,6 +137,51 @@ static void put_check(CzReportTable *table, const CzCheckResult *check,
     cz_table_put_bar(table, &margin_bar, check->margin);
     cz_table_put(table, check->why);
     put_source(table, check);
+}
+
+/* ---- scenarios without a run ---- */
+
+const char *cz_checks_scenario(const CzCheckResult *check) {
+    return check->family != NULL ? check->family : check->scenario;
+}
+
+static bool is_of_scenario(const CzCheckResult *check, const CzCheckResult *other) {
+    return strcmp(cz_checks_scenario(check), cz_checks_scenario(other)) == 0;
+}
+
+/* Number of checks that could not be made because this scenario has no run; 0 unless check i is the
+ * first of them. */
+static int n_without_run(const CzEvaluation *evaluation, int i) {
+    const CzCheckResult *check = evaluation->check;
+    int n = 0;
+    for (int k = 0; k < evaluation->n_check; k++) {
+        if (!check[k].has_no_run || !is_of_scenario(&check[k], &check[i]))
+            continue;
+        if (k < i)
+            return 0;
+        n++;
+    }
+    return check[i].has_no_run ? n : 0;
+}
+
+/* One line for all these checks of a scenario. */
+static void put_scenarios_without_run(CzReportTable *table, const CzEvaluation *evaluation) {
+    for (int i = 0; i < evaluation->n_check; i++) {
+        const int n = n_without_run(evaluation, i);
+        if (n == 0)
+            continue;
+        char name[48];
+        snprintf(name, sizeof name, "%d check%s", n, n == 1 ? "" : "s");
+        const CzCheckResult all = {.name = name,
+                                   .scenario = cz_checks_scenario(&evaluation->check[i]),
+                                   .verdict = CZ_VERDICT_NOT_CHECKED,
+                                   .why = evaluation->check[i].why,
+                                   .limit = NAN,
+                                   .value = NAN,
+                                   .margin = NAN,
+                                   .when = {NAN, NAN}};
+        put_check(table, &all, NULL);
+    }
 }
 
 /* The columns of a page or of a terminal, in the order of put_check. */
@@ -178,17 +212,22 @@ void cz_checks_write_rows(CzMarkup *markup, const CzEvaluation *evaluation,
     for (int pass = 0; pass < 2; pass++) /* failures first */
         for (int i = 0; i < evaluation->n_check; i++) {
             const bool fails = evaluation->check[i].verdict == CZ_VERDICT_FAIL;
-            if (cz_checks_is_shown(evaluation, i) != rest && fails == (pass == 0))
+            if (!evaluation->check[i].has_no_run && cz_checks_is_shown(evaluation, i) != rest &&
+                fails == (pass == 0))
                 put_check(&table, &evaluation->check[i], before != NULL ? &before->check[i] : NULL);
         }
+    if (!rest)
+        put_scenarios_without_run(&table, evaluation);
     cz_table_write_page(&table, markup);
 }
 
 static void write_verdict(CzTerminal *terminal, CzVerdict verdict) {
-    cz_terminal_say(terminal, verdict_styles[verdict], "%s", verdict_words[verdict]);
+    cz_terminal_say(terminal, cz_verdict_style(verdict), "%s", cz_verdict_word(verdict));
 }
 
+/* The last line of a table: "22 checks: 3 FAIL, 19 pass. Verdict: FAIL." */
 static void write_count(const CzEvaluation *evaluation, CzTerminal *terminal) {
+    char remark[CZ_SCREENING_ROOM];
     int n[4] = {0};
     for (int i = 0; i < evaluation->n_check; i++)
         n[evaluation->check[i].verdict]++;
@@ -206,52 +245,26 @@ static void write_count(const CzEvaluation *evaluation, CzTerminal *terminal) {
     }
     fputs(". Verdict: ", terminal->stream);
     write_verdict(terminal, evaluation->verdict);
-    fputs(".\n", terminal->stream);
+    fprintf(terminal->stream, "%s.\n",
+            cz_screening_remark(evaluation->verdict, evaluation->n_not_covered, remark));
 }
 
-int cz_checks_n_omitted(const CzEvaluation *evaluation) {
-    int n = 0;
-    for (int i = 0; i < evaluation->n_check; i++)
-        n += evaluation->check[i].is_omitted;
-    return n;
-}
-
-/* Checks of scenarios that were left out, in one line. */
-static void write_omitted(const CzEvaluation *evaluation, CzTerminal *terminal) {
-    const int n = cz_checks_n_omitted(evaluation);
-    if (n == 0)
-        return;
-    fprintf(terminal->stream, "%d check%s of scenarios that were not run: ", n, n == 1 ? "" : "s");
-    write_verdict(terminal, CZ_VERDICT_NOT_CHECKED);
-    fputs(".\n", terminal->stream);
-}
-
-/* Trains without limits, and requirements of the profile that are not checked. */
-static void write_not_covered(const CzEvaluation *evaluation, CzTerminal *terminal) {
-    for (int i = 0; i < evaluation->n_not_judged; i++) {
-        fputs("Not judged: ", terminal->stream);
-        cz_terminal_say(terminal, CZ_STYLE_CAREFUL, "%s", evaluation->not_judged[i].train);
-        fprintf(terminal->stream, ", %s.\n", evaluation->not_judged[i].why);
+static void say_scenarios_without_run(const CzEvaluation *evaluation, CzTerminal *terminal) {
+    for (int i = 0; i < evaluation->n_check; i++) {
+        const int n = n_without_run(evaluation, i);
+        if (n == 0)
+            continue;
+        write_verdict(terminal, CZ_VERDICT_NOT_CHECKED);
+        cz_terminal_say(terminal, CZ_STYLE_PLAIN, ": %d check%s of %s, %s.\n", n, n == 1 ? "" : "s",
+                        cz_checks_scenario(&evaluation->check[i]), evaluation->check[i].why);
     }
-    for (int i = 0; i < evaluation->n_not_covered; i++)
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s%s",
-                        i > 0 ? "; " : "Not covered by this program, to be shown by other means: ",
-                        evaluation->not_covered[i]);
-    if (evaluation->n_not_covered > 0)
-        fputs(".\n", terminal->stream);
-    for (int i = 0; i < evaluation->n_not_applicable; i++)
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s%s",
-                        i > 0 ? "; " : "Scenarios of the profile that do not apply: ",
-                        evaluation->not_applicable[i]);
-    if (evaluation->n_not_applicable > 0)
-        fputs(".\n", terminal->stream);
 }
 
 void cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *before,
                            CzTerminal *terminal) {
     if (evaluation->n_check == 0) {
+        cz_apart_say(evaluation, terminal);
         fputs("NO CHECKS. Add `checks:` to the problem file.\n", terminal->stream);
-        write_not_covered(evaluation, terminal);
         return;
     }
     const bool several = cz_n_kept_run(evaluation) > 1;
@@ -260,11 +273,11 @@ void cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *b
     begin(&table, false, several, with_before);
     for (int i = 0; i < evaluation->n_check; i++) {
         const CzCheckResult *check = &evaluation->check[i];
-        if (!check->is_omitted && (!several || cz_checks_is_shown(evaluation, i)))
+        if (!check->has_no_run && (!several || cz_checks_is_shown(evaluation, i)))
             put_check(&table, check, with_before ? &before->check[i] : NULL);
     }
     cz_table_write_text(&table, terminal);
-    write_omitted(evaluation, terminal);
+    say_scenarios_without_run(evaluation, terminal);
+    cz_apart_say(evaluation, terminal);
     write_count(evaluation, terminal);
-    write_not_covered(evaluation, terminal);
 }

@@ -3,6 +3,7 @@
 
 #include "report/figure.h"
 #include "report/tables.h"
+#include "report/verdict_words.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -154,9 +155,10 @@ void cz_corridor_write_table(const CzReport *report, CzTerminal *terminal) {
         cz_corridor_say_tried(corridor, text);
         cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s.\n", text);
     }
+    cz_screening_say_of(corridor->problem, terminal);
     if (!corridor->is_interrupted)
         cz_terminal_say(terminal, CZ_STYLE_PLAIN, "The design as written, with its reserves: %s.\n",
-                        cz_verdict_text(corridor->design.verdict));
+                        cz_verdict_words(corridor->design.verdict, corridor->design.n_not_covered));
     else
         cz_terminal_say(terminal, CZ_STYLE_BAD, "INTERRUPTED: wider corridors were not tried.\n");
 }

@@ -2,6 +2,7 @@
 #include "report/csv.h"
 
 #include "base/number.h"
+#include "evaluate/not_covered.h"
 #include "report/figure.h"
 #include "report/options.h"
 #include "report/results.h"
@@ -268,6 +269,13 @@ void cz_csv_write_history(const CzReport *report, FILE *stream) {
     }
 }
 
+/* A verdict in full, where there are no columns for provisional and screening. */
+static void put_verdict(Table *table, const CzProblem *problem, CzVerdict verdict) {
+    int n_not_covered;
+    cz_not_covered(problem, &n_not_covered);
+    put_text(table, cz_verdict_words(verdict, n_not_covered));
+}
+
 void cz_csv_write_sweep(const CzReport *report, FILE *stream) {
     const CzSweep *sweep = report->sweep;
     static const CzResult *const columns[] = {
@@ -292,9 +300,8 @@ void cz_csv_write_sweep(const CzReport *report, FILE *stream) {
         for (int k = 0; k < sweep->n_metric; k++)
             put_exact(&table, point->metric[k]);
         for (int k = 0; k < n_column; k++)
-            if (columns[k] ==
-                CZ_RESULT_AT(POINT, verdict)) /* in full, as there is no column for provisional */
-                put_text(&table, is_done ? cz_verdict_text(point->verdict) : NULL);
+            if (is_done && columns[k] == CZ_RESULT_AT(POINT, verdict))
+                put_verdict(&table, sweep->problem, point->verdict);
             else
                 put_result(&table, columns[k], &context, point);
         end_row(&table);
@@ -345,7 +352,7 @@ static void put_sample(Table *table, const CzSampling *sampling, int k) {
     const CzSampledCheck *check = sample->check >= 0 ? &sampling->check[sample->check] : NULL;
     put_exact(table, k + 1);
     put_text(table, cz_sample_state_text(sample->state));
-    put_text(table, cz_verdict_text(sample->verdict));
+    put_verdict(table, sampling->problem, sample->verdict);
     put_text(table, sample->beyond_validity ? "yes" : "no");
     put_size(table, sample->margin);
     put_text(table, check != NULL ? check->name : NULL);
@@ -398,8 +405,8 @@ void cz_csv_write_pareto(const CzReport *report, FILE *stream) {
         for (int k = 0; k < 2; k++)
             put_exact(&table, point->value[k]);
         for (int k = 0; k < n_column; k++)
-            if (columns[k] == CZ_RESULT_AT(FRONT_POINT, verdict)) /* in full, as for a sweep */
-                put_text(&table, point->x != NULL ? cz_verdict_text(point->verdict) : NULL);
+            if (point->x != NULL && columns[k] == CZ_RESULT_AT(FRONT_POINT, verdict))
+                put_verdict(&table, report->problem, point->verdict);
             else if (columns[k] == CZ_RESULT_AT(FRONT_POINT, dominated_by) &&
                      point->dominated_by < 0)
                 put_text(&table, NULL);
@@ -420,7 +427,7 @@ static void put_challenge_point(Table *table, const CzChallenge *challenge, int 
     put_exact(table, k + 1);
     put_text(table, point->phase);
     put_text(table, cz_sample_state_text(point->state));
-    put_text(table, cz_verdict_text(point->verdict));
+    put_verdict(table, challenge->problem, point->verdict);
     put_size(table, point->margin);
     put_text(table, check != NULL ? check->name : NULL);
     put_text(table, check != NULL ? check->scenario : NULL);

@@ -151,7 +151,7 @@ static const char *write_percent(char text[CZ_FIGURE_ROOM], const char *plus, bo
         return text;
     }
     if (size >= most + 0.5) {
-        snprintf(text, CZ_FIGURE_ROOM, percent < 0 ? "<-999 %%" : ">999 %%");
+        snprintf(text, CZ_FIGURE_ROOM, percent < 0 ? "< -999 %%" : "> 999 %%");
         return text;
     }
     if (is_whole && size >= 9.95)

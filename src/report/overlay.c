@@ -265,10 +265,11 @@ CzStatus cz_overlay_write_design(const CzReport *report, const char *folder, FIL
 CzStatus cz_overlay_write(const CzReport *report, const char *folder, FILE *stream,
                           CzError *error) {
     const CzOutcome *outcome = report->outcome;
-    fprintf(stream, "# The best design of %ld evaluation%s: %s. Verdict of its checks: %s.\n",
-            outcome->n_evaluation, outcome->n_evaluation == 1 ? "" : "s",
-            outcome->best_evaluation.violation <= 0 ? "it satisfies every constraint"
-                                                    : "IT VIOLATES A CONSTRAINT",
-            cz_verdict_text(outcome->best_evaluation.verdict));
+    fprintf(
+        stream, "# The best design of %ld evaluation%s: %s. Verdict of its checks: %s.\n",
+        outcome->n_evaluation, outcome->n_evaluation == 1 ? "" : "s",
+        outcome->best_evaluation.violation <= 0 ? "it satisfies every constraint"
+                                                : "IT VIOLATES A CONSTRAINT",
+        cz_verdict_words(outcome->best_evaluation.verdict, outcome->best_evaluation.n_not_covered));
     return cz_overlay_write_design(report, folder, stream, error);
 }

@@ -126,8 +126,6 @@ void cz_page_event_words(CzEventKind kind, char words[48]);
 /* The table of checks, with the values of a design before unless that is NULL. */
 void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
                           const CzEvaluation *before);
-/* Trains without limits, and requirements of the profile that are not checked. */
-void cz_page_write_not_covered(CzMarkup *markup, const CzEvaluation *evaluation);
 /* A scenario's name as the name of a folder. */
 void cz_page_folder_name(const char *scenario, char name[CZ_NAME_ROOM]);
 

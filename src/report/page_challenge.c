@@ -8,6 +8,7 @@
 #include "report/page.h"
 #include "report/plot.h"
 #include "report/sample_table.h"
+#include "report/verdict_words.h"
 #include "statistics/rank.h"
 
 #include <math.h>
@@ -230,6 +231,7 @@ CzStatus cz_page_write_challenge(const CzReport *report, FILE *stream, CzError *
                     challenge->is_broken ? "BROKEN" : "NOT BROKEN", text);
     cz_challenge_say_how(challenge, text);
     cz_markup_write(&markup, "<p>%s.</p>\n", text);
+    cz_screening_write_of(challenge->problem, &markup);
     if (challenge->is_interrupted)
         cz_markup_write(&markup,
                         "<p class='fail'>The challenge was interrupted: runs are missing.</p>");

@@ -5,38 +5,12 @@
 #include "report/figure.h"
 #include "report/runs.h"
 #include "report/units.h"
+#include "report/verdict_words.h"
 
 #include <math.h>
 #include <string.h>
 
 enum { MOST_LINKS = 12 }; /* to other reports that are shown without a click */
-
-static const char *const verdict_title[] = {[CZ_VERDICT_PASS] = "PASS",
-                                            [CZ_VERDICT_PROVISIONAL] = "PROVISIONAL PASS",
-                                            [CZ_VERDICT_FAIL] = "FAIL",
-                                            [CZ_VERDICT_NOT_CHECKED] = "NOT CHECKED"};
-
-/* A sentence that lists texts. */
-static void write_texts(CzMarkup *markup, const char *title, int n, const char *const *text) {
-    for (int i = 0; i < n; i++) {
-        if (i == 0)
-            cz_markup_write(markup, "<p>%s: %s", title, text[i]);
-        else
-            cz_markup_write(markup, "; %s", text[i]);
-    }
-    if (n > 0)
-        cz_markup_write(markup, ".</p>\n");
-}
-
-void cz_page_write_not_covered(CzMarkup *markup, const CzEvaluation *evaluation) {
-    for (int i = 0; i < evaluation->n_not_judged; i++)
-        cz_markup_write(markup, "<p>Not judged: %s, %s.</p>\n", evaluation->not_judged[i].train,
-                        evaluation->not_judged[i].why);
-    write_texts(markup, "Not covered by this program, to be shown by other means",
-                evaluation->n_not_covered, evaluation->not_covered);
-    write_texts(markup, "Scenarios of the profile that do not apply", evaluation->n_not_applicable,
-                evaluation->not_applicable);
-}
 
 void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
                           const CzEvaluation *before) {
@@ -44,21 +18,21 @@ void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
         before = NULL;
     if (evaluation->n_check == 0) {
         cz_markup_write(markup, "<p>No check was made.</p>");
-        cz_page_write_not_covered(markup, evaluation);
+        cz_apart_write(evaluation, markup);
         return;
     }
     int n_more = 0;
     for (int i = 0; i < evaluation->n_check; i++)
-        n_more += !cz_checks_is_shown(evaluation, i);
+        n_more += !evaluation->check[i].has_no_run && !cz_checks_is_shown(evaluation, i);
     cz_checks_write_rows(markup, evaluation, before, false);
-    cz_page_write_not_covered(markup, evaluation);
+    cz_apart_write(evaluation, markup);
     if (n_more == 0)
         return;
     cz_markup_write(
         markup,
-        "<details><summary>%d more checks, each %swith a better margin than the one of "
-        "its name above</summary>",
-        n_more, cz_checks_n_omitted(evaluation) > 0 ? "of a scenario that was not run, or " : "");
+        "<details><summary>%d more checks, each with a better margin than the one of its name "
+        "above</summary>",
+        n_more);
     cz_checks_write_rows(markup, evaluation, before, true);
     cz_markup_write(markup, "</details>\n");
 }
@@ -182,13 +156,11 @@ static void write_count(CzMarkup *markup, const CzEvaluation *evaluation) {
 void cz_page_write_verdict(CzPage *page, bool is_top) {
     CzMarkup *markup = &page->markup;
     const CzEvaluation *evaluation = page->evaluation;
-    cz_markup_write(markup, "<header><h1>%s</h1><p class='banner %s'>%s</p>",
-                    cz_problem_title(page->problem),
-                    evaluation->n_check == 0                 ? "careful"
-                    : evaluation->verdict == CZ_VERDICT_FAIL ? "fail"
-                    : evaluation->verdict == CZ_VERDICT_PASS ? "pass"
-                                                             : "careful",
-                    verdict_title[evaluation->verdict]);
+    char remark[CZ_SCREENING_ROOM];
+    cz_markup_write(markup, "<header><h1>%s</h1><p class='banner %s'>%s%s</p>",
+                    cz_problem_title(page->problem), cz_verdict_class(evaluation->verdict),
+                    cz_verdict_title(evaluation->verdict),
+                    cz_screening_remark(evaluation->verdict, evaluation->n_not_covered, remark));
     write_count(markup, evaluation);
     cz_markup_write(markup, "</header>\n");
     cz_page_write_contents(page, false);

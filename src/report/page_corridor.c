@@ -9,6 +9,7 @@
 #include "report/page.h"
 #include "report/sample_table.h"
 #include "report/table.h"
+#include "report/verdict_words.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -191,7 +192,7 @@ static void write_conditions(CzMarkup *markup, const CzCorridor *corridor) {
     cz_markup_write(markup,
                     ".</p>\n<p>Design rules hold as physical limits here, except those whose "
                     "reserves the file keeps. The design as written, with its reserves: %s.</p>\n",
-                    cz_verdict_text(corridor->design.verdict));
+                    cz_verdict_words(corridor->design.verdict, corridor->design.n_not_covered));
     cz_markup_write(markup, "</section>\n");
 }
 
@@ -218,7 +219,7 @@ static void write_open(CzMarkup *markup, const CzCorridor *corridor) {
                         "cases.</li>\n",
                         cz_problem_n_scenario(corridor->problem) - corridor->n_scenario);
     cz_markup_write(markup, "</ul>\n");
-    cz_page_write_not_covered(markup, &corridor->design);
+    cz_apart_write(&corridor->design, markup);
     cz_markup_write(markup, "</section>\n");
 }
 

@@ -12,6 +12,7 @@
 #include "report/plot.h"
 #include "report/robust_table.h"
 #include "report/runs.h"
+#include "report/verdict_words.h"
 #include "report/worth_table.h"
 
 #include <math.h>
@@ -30,6 +31,7 @@ static void write_banner(CzMarkup *markup, const CzReport *report) {
     const double best = outcome->best_evaluation.objective;
     const char *given = cz_evaluator_objective_unit(evaluator), *unit = given != NULL ? given : "";
     const CzVerdict verdict = outcome->best_evaluation.verdict;
+    char remark[CZ_SCREENING_ROOM];
     const bool is_passed = outcome->status == CZ_OUTCOME_FEASIBLE && verdict == CZ_VERDICT_PASS;
     cz_markup_write(
         markup, "<header><h1>%s</h1><p class='banner %s'>%s</p>", cz_problem_title(report->problem),
@@ -52,8 +54,9 @@ static void write_banner(CzMarkup *markup, const CzReport *report) {
                         cz_evaluator_objective_name(evaluator), cz_figure_plain(before, start),
                         unit[0] != '\0' ? " " : "", unit, cz_figure_plain(after, best),
                         unit[0] != '\0' ? " " : "", unit);
-    cz_markup_write(markup, "<p>Verdict of the checks of the best design: %s.</p>",
-                    cz_verdict_text(verdict));
+    cz_markup_write(markup, "<p>Verdict of the checks of the best design: %s%s.</p>",
+                    cz_verdict_text(verdict),
+                    cz_screening_remark(verdict, outcome->best_evaluation.n_not_covered, remark));
     if (outcome->start_evaluation.beyond_validity || outcome->best_evaluation.beyond_validity)
         cz_markup_write(markup,
                         "<p class='fail'>The %s climbs: its numbers are beyond model validity "

@@ -6,6 +6,7 @@
 #include "report/figure.h"
 #include "report/page.h"
 #include "report/plot.h"
+#include "report/verdict_words.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -173,20 +174,21 @@ static void write_designs(const CzPareto *pareto, CzMarkup *markup) {
     cz_table_write_page(&table, markup);
 }
 
-CzStatus cz_page_write_pareto(const CzPareto *pareto, const char *title, FILE *stream,
+CzStatus cz_page_write_pareto(const CzPareto *pareto, const CzProblem *problem, FILE *stream,
                               CzError *error) {
     CzMarkup markup = {.stream = stream};
     CzReportTable table;
     char text[CZ_SENTENCE_ROOM];
-    snprintf(text, sizeof text, "%s, front", title);
+    snprintf(text, sizeof text, "%s, front", cz_problem_title(problem));
     cz_page_write_head(&markup, text);
     cz_markup_write(&markup, "<h1>%s</h1>", text);
     if (pareto->is_interrupted)
         cz_markup_write(&markup,
                         "<p class='fail'>The search was interrupted: points are missing.</p>");
     cz_pareto_describe(pareto, sizeof text, text);
-    cz_markup_write(
-        &markup, "<p>%s</p>\n<section id='figures'>\n<h2>Front</h2>\n<div class='figures'>", text);
+    cz_markup_write(&markup, "<p>%s</p>\n", text);
+    cz_screening_write_of(problem, &markup);
+    cz_markup_write(&markup, "<section id='figures'>\n<h2>Front</h2>\n<div class='figures'>");
     draw(pareto, true, &markup);
     cz_markup_write(&markup, "</div></section>\n<section id='points'>\n<h2>Points</h2>\n");
     cz_pareto_begin_points(&table, pareto);

@@ -8,8 +8,8 @@
 #include "report/table.h"
 
 /* Writes the page. Status: CZ_STATUS_NO_MEMORY. */
-CZ_MUST_CHECK CzStatus cz_page_write_pareto(const CzPareto *pareto, const char *title, FILE *stream,
-                                            CzError *error);
+CZ_MUST_CHECK CzStatus cz_page_write_pareto(const CzPareto *pareto, const CzProblem *problem,
+                                            FILE *stream, CzError *error);
 
 /* The table of all points. */
 void cz_pareto_begin_points(CzReportTable *table, const CzPareto *pareto);

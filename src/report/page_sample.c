@@ -8,6 +8,7 @@
 #include "report/sample_figures.h"
 #include "report/sample_replay.h"
 #include "report/sample_table.h"
+#include "report/verdict_words.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,15 +21,11 @@ static bool has_figures(const CzSampledCheck *check) {
 }
 
 static void write_banner(CzMarkup *markup, const CzSampling *sampling) {
-    static const char *const classes[] = {[CZ_STYLE_GOOD] = "pass",
-                                          [CZ_STYLE_CAREFUL] = "careful",
-                                          [CZ_STYLE_BAD] = "fail",
-                                          [CZ_STYLE_PLAIN] = "careful",
-                                          [CZ_STYLE_SMALL] = "careful"};
-    CzStyle style;
-    char text[CZ_SAMPLE_SENTENCE];
-    const char *word = cz_sample_word(sampling->judgement, &style);
-    cz_markup_write(markup, "<header><p class='banner %s'>%s</p></header>\n", classes[style], word);
+    char text[CZ_SAMPLE_SENTENCE], remark[CZ_SCREENING_ROOM];
+    const CzVerdict verdict = sampling->judgement;
+    cz_markup_write(markup, "<header><p class='banner %s'>%s%s</p></header>\n",
+                    cz_verdict_class(verdict), cz_verdict_title(verdict),
+                    cz_screening_remark(verdict, sampling->nominal.n_not_covered, remark));
     cz_sample_say_share(sampling, text);
     cz_markup_write(markup, "<p><strong>%s.</strong></p>\n", text);
     if (cz_sample_say_unjudged(sampling, text))
@@ -37,7 +34,9 @@ static void write_banner(CzMarkup *markup, const CzSampling *sampling) {
     cz_markup_write(markup,
                     "<p>%s. The verdict is that of the %s of each check; the nominal design: "
                     "%s.</p>\n",
-                    text, sampling->judged_by, cz_verdict_text(sampling->nominal.verdict));
+                    text, sampling->judged_by,
+                    cz_verdict_words(sampling->nominal.verdict, sampling->nominal.n_not_covered));
+    cz_screening_write_of(sampling->problem, markup);
     if (sampling->is_interrupted)
         cz_markup_write(markup,
                         "<p class='fail'>The sampling was interrupted: samples are missing.</p>");

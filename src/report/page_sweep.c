@@ -5,6 +5,7 @@
 #include "report/figure.h"
 #include "report/page.h"
 #include "report/plot.h"
+#include "report/verdict_words.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -156,6 +157,7 @@ CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error)
     }
     if (cz_sweep_is_beyond(sweep))
         cz_markup_write(&markup, "<p class='fail'>" CZ_SWEEP_BEYOND "</p>");
+    cz_screening_write_of(sweep->problem, &markup);
     cz_markup_write(&markup, "<section id='figures'>\n<h2>%s</h2>\n<div class='figures'>",
                     sweep->n_axis == 1 ? "Over the value" : "Map");
     if (sweep->n_axis == 1)

@@ -4,6 +4,7 @@
 #include "report/figure.h"
 #include "report/page_pareto.h"
 #include "report/tables.h"
+#include "report/verdict_words.h"
 
 #include <math.h>
 
@@ -91,6 +92,7 @@ void cz_pareto_write_table(const CzReport *report, CzTerminal *terminal) {
     cz_pareto_describe(pareto, sizeof text, text);
     fputc('\n', terminal->stream);
     cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n", text);
+    cz_screening_say_of(report->problem, terminal);
     if (pareto->is_interrupted)
         cz_terminal_say(terminal, CZ_STYLE_BAD, "INTERRUPTED: points are missing.\n");
 }

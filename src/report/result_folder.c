@@ -4,12 +4,14 @@
 #include "crushzone/report.h"
 
 #include "base/error.h"
+#include "evaluate/not_covered.h"
 #include "optimise/robust_cases.h"
 #include "problem/problem.h"
 #include "report/challenge_files.h"
 #include "report/csv.h"
 #include "report/folder.h"
 #include "report/iso_mme_folder.h"
+#include "report/verdict_words.h"
 #include "report/options.h"
 #include "report/overlay.h"
 #include "report/page.h"
@@ -118,7 +120,9 @@ static void write_log(const Results *results, FILE *stream) {
                 run->status == CZ_OK ? "completed" : "FAILED", run->n_step,
                 cz_ended_text(run->ended), run->failure[0] != '\0' ? ": " : "", run->failure);
     }
-    fprintf(stream, "verdict: %s\n", cz_verdict_text(evaluation->verdict));
+    char remark[CZ_SCREENING_ROOM];
+    fprintf(stream, "verdict: %s%s\n", cz_verdict_text(evaluation->verdict),
+            cz_screening_remark(evaluation->verdict, evaluation->n_not_covered, remark));
 }
 
 /* A copy of a file that was read, so that the folder can be moved and run again. */
@@ -149,10 +153,12 @@ static CzStatus write_point(const Results *results, FILE *stream, CzError *error
     CzReport report = *results->report;
     report.outcome = &outcome;
     report.evaluator = pareto->evaluator;
+    int n_not_covered;
+    cz_not_covered(report.problem, &n_not_covered);
     fprintf(stream, "# Point %d of %d: %s. Verdict of its checks: %s.\n", results->point + 1,
             pareto->n_point,
             point->violation <= 0 ? cz_pareto_state_text(point->state) : "IT VIOLATES A CONSTRAINT",
-            cz_verdict_text(point->verdict));
+            cz_verdict_words(point->verdict, n_not_covered));
     return cz_overlay_write_design(&report, results->folder, stream, error);
 }
 
@@ -234,8 +240,7 @@ static CzStatus write_content(const Results *results, Content content, FILE *str
         cz_csv_write_corridor(report, stream);
         break;
     case PARETO_REPORT:
-        return cz_page_write_pareto(report->pareto, cz_problem_title(report->problem), stream,
-                                    error);
+        return cz_page_write_pareto(report->pareto, report->problem, stream, error);
     case FRONT:
         return cz_report_write_front(report->pareto, stream, error);
     case POINT:

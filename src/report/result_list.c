@@ -3,6 +3,7 @@
 
 #include "evaluate/evaluator.h"
 #include "evaluate/metric.h"
+#include "evaluate/not_covered.h"
 #include "problem/problem.h"
 #include "report/compare.h"
 #include "report/runs.h"
@@ -34,6 +35,28 @@ static const char *or_null(const char *text) {
 /* Word for the status of a run, an evaluation or a verification. */
 static const char *status_word(CzStatus status) {
     return status == CZ_OK ? "completed" : "failed";
+}
+
+static long n_not_covered(const CzResultContext *context) {
+    int n;
+    cz_not_covered(context->problem, &n);
+    return n;
+}
+
+static const char *not_covered(const CzResultContext *context, long index) {
+    int n;
+    return cz_not_covered(context->problem, &n)[index];
+}
+
+static bool is_screening(const CzResultContext *context, CzVerdict verdict) {
+    return cz_verdict_is_screening(verdict, (int)n_not_covered(context));
+}
+
+/* The profile of a problem; an empty one for none. */
+static const CzProfile *profile_of(const CzProblem *problem) {
+    static const CzProfile none;
+    const CzProfile *profile = cz_problem_profile(problem);
+    return profile != NULL ? profile : &none;
 }
 
 static const char *limit_word(bool is_minimum) {

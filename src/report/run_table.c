@@ -3,6 +3,7 @@
 
 #include "problem/problem.h"
 #include "report/checks_table.h"
+#include "report/matrix.h"
 #include "report/results.h"
 #include "report/runs.h"
 #include "report/figure.h"
@@ -244,5 +245,6 @@ void cz_run_write_table(const CzReport *report, CzTerminal *terminal) {
         }
         fputc('\n', terminal->stream);
     }
+    cz_matrix_write_text(evaluation, terminal);
     cz_checks_write_table(evaluation, NULL, terminal);
 }

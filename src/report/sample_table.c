@@ -4,6 +4,7 @@
 #include "report/figure.h"
 #include "report/sample_replay.h"
 #include "report/tables.h"
+#include "report/verdict_words.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -84,18 +85,6 @@ bool cz_sample_say_unjudged(const CzSampling *sampling, char text[CZ_SAMPLE_SENT
              check != NULL ? check->name : "", check != NULL && check->why != NULL ? ", " : "",
              check != NULL && check->why != NULL ? check->why : "");
     return n > 0;
-}
-
-const char *cz_sample_word(CzVerdict verdict, CzStyle *style) {
-    static const struct {
-        const char *word;
-        CzStyle style;
-    } looks[] = {[CZ_VERDICT_PASS] = {"PASS", CZ_STYLE_GOOD},
-                 [CZ_VERDICT_PROVISIONAL] = {"PROVISIONAL PASS", CZ_STYLE_CAREFUL},
-                 [CZ_VERDICT_FAIL] = {"FAIL", CZ_STYLE_BAD},
-                 [CZ_VERDICT_NOT_CHECKED] = {"NOT CHECKED", CZ_STYLE_CAREFUL}};
-    *style = looks[verdict].style;
-    return looks[verdict].word;
 }
 
 /* ---- checks ---- */
@@ -242,12 +231,15 @@ static void write_worst(const CzReport *report, CzTerminal *terminal) {
 }
 
 static void write_judgement(const CzSampling *sampling, CzTerminal *terminal) {
-    CzStyle style;
-    const char *word = cz_sample_word(sampling->judgement, &style);
-    cz_terminal_say(terminal, style, "%s", word);
+    const CzVerdict verdict = sampling->judgement;
+    const int n_not_covered = sampling->nominal.n_not_covered;
+    char text[CZ_SCREENING_ROOM];
+    const char *remark = cz_screening_remark(verdict, n_not_covered, text);
+    cz_terminal_say(terminal, cz_verdict_style(verdict), "%s", cz_verdict_title(verdict));
     cz_terminal_say(terminal, CZ_STYLE_PLAIN,
-                    ", judged by the %s of each check. The nominal design: %s.\n",
-                    sampling->judged_by, cz_verdict_text(sampling->nominal.verdict));
+                    "%s%s judged by the %s of each check. The nominal design: %s.\n", remark,
+                    remark[0] != '\0' ? ";" : ",", sampling->judged_by,
+                    cz_verdict_words(sampling->nominal.verdict, n_not_covered));
 }
 
 void cz_sample_write_table(const CzReport *report, CzTerminal *terminal) {
@@ -273,6 +265,7 @@ void cz_sample_write_table(const CzReport *report, CzTerminal *terminal) {
             cz_terminal_say(terminal, CZ_STYLE_CAREFUL, "%s.\n", text);
         write_worst(report, terminal);
     }
+    cz_screening_say_of(sampling->problem, terminal);
     write_judgement(sampling, terminal);
     if (sampling->is_interrupted)
         cz_terminal_say(terminal, CZ_STYLE_BAD, "INTERRUPTED: samples are missing.\n");

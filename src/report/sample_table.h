@@ -18,9 +18,6 @@ void cz_sample_say_how(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]
 /* how many samples have no verdict, and the first check that cannot be made; false for none. */
 bool cz_sample_say_unjudged(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]);
 
-/* Word and style of a judgement. */
-const char *cz_sample_word(CzVerdict verdict, CzStyle *style);
-
 /* The table of checks, or of the worst one of each name; returns the number of those left out. */
 int cz_sample_begin_checks(CzReportTable *table, const CzSampling *sampling, const int *order,
                            bool each_name_once);

@@ -73,6 +73,10 @@ set(CZ_SOURCES_report
     temporary.c
     decimation.c
     verification.c
+    verdict_words.c
+    document_lines.c
+    junit.c
+    matrix.c
     worth_table.c
 )
 # Databases, by SQLite where it is installed.

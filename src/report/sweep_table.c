@@ -5,6 +5,7 @@
 #include "report/table.h"
 #include "report/page_sweep.h"
 #include "report/tables.h"
+#include "report/verdict_words.h"
 
 #include <math.h>
 #include <string.h>
@@ -14,12 +15,17 @@ CzPointLook cz_point_look(const CzSweepPoint *point) {
         [CZ_SWEEP_RUN_FAILED] = {"RUN FAILED", "!", "#5c0010", CZ_STYLE_BAD},
         [CZ_SWEEP_INVALID] = {"invalid", "-", "#9a9a9a", CZ_STYLE_PLAIN},
         [CZ_SWEEP_NOT_RUN] = {"not run", " ", "none", CZ_STYLE_PLAIN}};
-    static const CzPointLook of_verdict[] = {
-        [CZ_VERDICT_PASS] = {"pass", "+", "#009e73", CZ_STYLE_GOOD},
-        [CZ_VERDICT_PROVISIONAL] = {"PROVISIONAL", "~", "#e69f00", CZ_STYLE_CAREFUL},
-        [CZ_VERDICT_FAIL] = {"FAIL", "X", "#d0021b", CZ_STYLE_BAD},
-        [CZ_VERDICT_NOT_CHECKED] = {"NOT CHECKED", "?", "#9a9a9a", CZ_STYLE_CAREFUL}};
-    return point->state == CZ_SWEEP_DONE ? of_verdict[point->verdict] : of_state[point->state];
+    static const struct {
+        const char *sign, *colour;
+    } of_verdict[] = {[CZ_VERDICT_PASS] = {"+", "#009e73"},
+                      [CZ_VERDICT_PROVISIONAL] = {"~", "#e69f00"},
+                      [CZ_VERDICT_FAIL] = {"X", "#d0021b"},
+                      [CZ_VERDICT_NOT_CHECKED] = {"?", "#9a9a9a"}};
+    const CzVerdict verdict = point->verdict;
+    return point->state != CZ_SWEEP_DONE
+               ? of_state[point->state]
+               : (CzPointLook){cz_verdict_word(verdict), of_verdict[verdict].sign,
+                               of_verdict[verdict].colour, cz_verdict_style(verdict)};
 }
 
 static void put_point(CzReportTable *table, const CzSweep *sweep, const CzSweepPoint *point) {
@@ -181,6 +187,7 @@ void cz_sweep_write_table(const CzReport *report, CzTerminal *terminal) {
     if (cz_sweep_is_beyond(sweep))
         cz_terminal_say(terminal, CZ_STYLE_BAD, CZ_SWEEP_BEYOND "\n");
     write_worst(sweep, terminal);
+    cz_screening_say_of(sweep->problem, terminal);
     if (sweep->is_interrupted)
         cz_terminal_say(terminal, CZ_STYLE_BAD, "INTERRUPTED: points are missing.\n");
 }

@@ -140,7 +140,7 @@ one_scenario() { exits 0 "$C" run two.yaml --scenario slow --json && json out.tx
 check "--scenario runs one scenario only" one_scenario
 omitted() { exits 0 "$C" run two.yaml --scenario slow --json && json out.txt verdict 'not checked' || json out.txt verdict fail; }
 check "an omitted scenario is not a pass" omitted
-one_line() { exits 0 "$C" run two.yaml --scenario slow && says out.txt 'of scenarios that were not run: NOT CHECKED.' && ! says out.txt 'this scenario was not run'; }
+one_line() { exits 0 "$C" run two.yaml --scenario slow && says out.txt 'NOT CHECKED: 5 checks of fast, this scenario was not run.' && [ "$(grep -c 'this scenario was not run' out.txt)" = 1 ]; }
 check "omitted scenarios are one line of the table" one_line
 no_number() { exits 0 "$C" verify two.yaml --scenario slow && says out.txt slow && ! says out.txt fast; }
 check "verify does not count omitted scenarios" no_number

@@ -28,7 +28,7 @@ never_passes() {
 }
 check "a slow collision without stops is not a pass either" never_passes
 incomplete() {
-    exits 3 "$C" check "$climbs" --set simulation.longest_s=0.06 && says out.txt INCOMPLETE && line out.txt 'override ' 'NOT CHECKED' 'did not meet its end criterion' &&
+    exits 3 "$C" check "$climbs" --set simulation.longest_s=0.06 && says out.txt INCOMPLETE && line out.txt 'NOT CHECKED: ' 'did not meet its end criterion' &&
         ! says out.txt 'Verdict: PASS' >nothing.txt && exits 3 "$C" run "$climbs" --set simulation.longest_s=0.06 --json && json out.txt scenarios.0.ended incomplete
 }
 check "a run with a short duration is incomplete and does not pass" incomplete

@@ -22,14 +22,17 @@ trains:
   - {name: A, speed_km_h: 5, vehicles: [{use: car}]}
   - {name: B, vehicles: [{use: car}]}
 END
-# agree FILE CODE WORD JSON PROVISIONAL BADGE: all give the same verdict of a problem.
+# agree FILE CODE WORD JSON PROVISIONAL BADGE [REMARK]: all give the same verdict of a problem, with the remark behind a pass.
 agree() {
-    exits "$2" "$C" check "$1" -o out && says out.txt "Verdict: $3." &&
-        json out/summary.json verdict "$4" && json out/summary.json provisional "$5" &&
-        grep -qE "<p class=\"banner [a-z]*\">$6</p>" out/report.html && exits "$2" "$C" run --strict "$1" -o out
+    is_screening=false
+    [ -z "${7-}" ] || is_screening=true
+    exits "$2" "$C" check "$1" -o out && [ "$(tail -n 1 out.txt | sed 's/.*Verdict: //')" = "$3${7-}." ] &&
+        json out/summary.json verdict "$4" && json out/summary.json provisional "$5" && json out/summary.json screening $is_screening &&
+        grep -qF "\">$6${7-}</p>" out/report.html && says out/run.log "${7-}" && exits "$2" "$C" run --strict "$1" -o out
 }
+screening=' (screening): 2 requirements of the profile are not covered'
 from_memory() {
-    agree elastic.yaml 0 PROVISIONAL pass true 'PROVISIONAL PASS' && says out.txt '1 check: 1 PROVISIONAL.' &&
+    agree elastic.yaml 0 PROVISIONAL pass true 'PROVISIONAL PASS' "$screening" && says out.txt '1 check: 1 PROVISIONAL.' &&
         says out.txt 'Not covered by this program, to be shown by other means: vestibules; obstacle deflector.' &&
         json out/summary.json not_covered.1 'obstacle deflector' && says out/report.html 'vestibules; obstacle deflector' &&
         says out/checks.csv 'vestibules,' && ! grep -q 'NOT CHECKED' out.txt
@@ -37,9 +40,11 @@ from_memory() {
 check "a pass against a limit from memory is provisional, and requirements that are not covered are listed apart" from_memory
 confirmed() {
     sed 's/M1/S1/' profiles/own.yaml >profiles/read.yaml && sed -i 's/name: own/name: read/' profiles/read.yaml &&
-        sed 's/profile: own/profile: read/' elastic.yaml >read.yaml && agree read.yaml 0 pass pass false PASS
+        sed 's/profile: own/profile: read/' elastic.yaml >read.yaml && agree read.yaml 0 pass pass false PASS "$screening" &&
+        printf 'extends: elastic.yaml\nchecks: {profile: null, limits: [{name: force, metric: interfaces.peak_force_kN, max: 3000}]}\n' >whole.yaml &&
+        agree whole.yaml 0 pass pass false PASS
 }
-check "a pass against a limit from the primary text is a pass" confirmed
+check "a pass against a limit from the primary text is a pass, by screening where the profile asks for more" confirmed
 underframes() {
     printf 'extends: %s/problems/two-cars-25kmh.yaml\nchecks: {profile: us-49cfr238, category: tier-1-cab, scenarios: []}\nscenarios: [{name: offset, height_offset_mm: 40}]\n' "$SOURCE" >rise.yaml
     exits 0 "$C" run rise.yaml -q -o rise &&
@@ -69,9 +74,19 @@ sweep_agrees() {
         json out.txt points.0.provisional true && exits 0 "$C" sweep rules.yaml --vary trains.A.speed_km_h=4:5:2 --json &&
         json out.txt points.1.verdict 'not checked' && exits 1 "$C" sweep low.yaml --vary trains.A.speed_km_h=4:5:2 --strict --json &&
         json out.txt points.1.verdict fail && "$C" run elastic.yaml -o one --quiet && "$C" run low.yaml -o two --quiet &&
-        exits 0 "$C" compare one two --json && json out.txt runs.0.verdict pass && json out.txt runs.0.provisional true && json out.txt runs.1.verdict fail
+        exits 0 "$C" compare one two --json && json out.txt runs.0.verdict pass && json out.txt runs.0.provisional true && json out.txt runs.0.screening true && json out.txt runs.1.verdict fail && json out.txt runs.1.screening false
 }
 check "sweeps and comparisons combine checks by the same rule" sweep_agrees
+studies_agree() {
+    exits 0 "$C" sweep elastic.yaml --vary trains.A.speed_km_h=4:5:2 -o swept && says out.txt 'A pass is one by screening: 2 requirements of the profile are not covered.' &&
+        says out.txt 'Not covered by this program, to be shown by other means: vestibules; obstacle deflector.' &&
+        json swept/sweep.json points.0.screening true && json swept/sweep.json not_covered.0 vestibules && says swept/sweep.csv 'provisional (screening)' && says swept/report.html '2 requirements of the profile are not covered' &&
+        printf 'extends: elastic.yaml\nuncertainty: {samples: 4, parameters: [{path: trains.A.speed_km_h, tolerance_percent: 2}]}\n' >scatter.yaml &&
+        exits 0 "$C" sample scatter.yaml -o sampled && says out.txt "PROVISIONAL PASS$screening; judged by" && json sampled/sample.json screening true && says sampled/samples.csv 'provisional (screening)' &&
+        grep -qF "\">PROVISIONAL PASS$screening</p>" sampled/report.html &&
+        printf '{}\n{"op": "describe"}\n' | "$C" serve elastic.yaml -q >lines.txt && head -n 1 lines.txt >out.txt && json out.txt screening true && json out.txt verdict pass && sed 1d lines.txt >out.txt && json out.txt not_covered.1 'obstacle deflector'
+}
+check "samples, points of a sweep and answers of serve are a pass by screening only, too" studies_agree
 yes_or_no() {
     "$C" run low.yaml -o out >out.txt 2>err.txt && grep '^bottoming out  ' out.txt >row.txt && ! grep '%' row.txt &&
         json out/summary.json checks.2.name 'bottoming out' && json out/summary.json checks.2.margin null &&
@@ -81,7 +96,7 @@ yes_or_no() {
 check "a yes-or-no check has no percentage" yes_or_no
 many_times() {
     "$C" run low.yaml -o out --set trains.A.speed_km_h=60 >out.txt 2>err.txt
-    grep '<-999 %' out.txt >row.txt && says out/report.html '&lt;-999 %' && ! grep -E ' [0-9]{4,} %' out.txt
+    grep '< -999 %' out.txt >row.txt && says out/report.html '&lt; -999 %' && ! grep -E ' [0-9]{4,} %' out.txt
 }
 check "a limit exceeded many times is marked without a number" many_times
 leftovers() {
@@ -161,4 +176,83 @@ no_objective() { # the objective of a search does not influence checks
     agree aim.yaml 0 pass pass false PASS && exits 1 "$C" optimise aim.yaml -o aimed && says out.txt 'the objective has no value in any design' && json aimed/outcome.json best_is_feasible false
 }
 check "an objective without a value does not influence checks, and a search ends as infeasible" no_objective
+# A train in three scenarios, one of which fails.
+cat >three.yaml <<'END'
+extends: elastic.yaml
+title: 'a "run" & <three> scenarios'
+document: {project: "Line 8 & 9 <x>", author: "J. O'Doe", revision: B, date: 2026-11-30}
+scenarios:
+  - {name: slow}
+  - {name: fast, speed_km_h: 12}
+  - {name: slower, speed_km_h: 4}
+checks: {profile: own, limits: [{name: parts, metric: design.part_count, max: 9}, {name: deceleration, metric: vehicles.peak_deceleration_g, max: 99}, {name: bottomed, metric: interfaces.bottomed_out, max: 0}]}
+END
+matrix() {
+    exits 1 "$C" check three.yaml -o out && grep -qE '^1 +slow +PROVISIONAL ' out.txt && grep -qE '^2 +fast +FAIL +-[0-9]+ % +peak force +A1-B1' out.txt && grep -qE '^4 +design +pass ' out.txt &&
+        grep -qE '^peak force +~\+[0-9]+ % +-[0-9]+ % +~\+[0-9]+ %$' out.txt && grep -qE '^bottomed +pass +FAIL +pass$' out.txt && grep -qE '^parts +n/a$' out.txt &&
+        exits 1 "$C" check three.yaml --scenario slow && ! grep -q '^criterion' out.txt && says out.txt 'NOT CHECKED: 3 checks of fast, this scenario was not run.'
+}
+check "check prints criteria by scenarios" matrix
+missing() {
+    exits 3 "$C" check three.yaml --set simulation.longest_s=0.05 -o out && [ "$(grep -c '^NOT CHECKED: 3 checks of .*, the run of this scenario did not meet' out.txt)" = 3 ] && says out.txt '10 checks: 9 NOT CHECKED, 1 pass' &&
+        json out/summary.json checks.8.why 'the run of this scenario did not meet its end criterion within simulation.longest_s' &&
+        [ "$(grep -c 'the run of this scenario did not meet' out/report.html)" = 3 ]
+}
+check "the checks of a scenario without a result are one line of the table and the report, and each is in JSON" missing
+filed() {
+    "$C" run three.yaml --scenario slow -o out -q >out.txt && json out/summary.json problem.project 'Line 8 & 9 <x>' && json out/summary.json problem.date 2026-11-30 && json out/summary.json problem.edition ours &&
+        "$C" show out/resolved.yaml >out.txt && says out.txt "J. O'Doe"
+}
+check "project, author, revision and date of the file are in the documents" filed
+# counts FILE FOLDER: an XML parser reads the document, and its counts are those of the JSON.
+counts() {
+    python3 - "$1" "$2" <<'END'
+import json, sys, xml.etree.ElementTree as tree
+root, summary = tree.parse(sys.argv[1]).getroot(), json.load(open(sys.argv[2] + "/summary.json"))
+words = [check["verdict"] for check in summary["checks"]]
+scenarios = summary["scenarios"]
+bad = sum(run["status"] == "failed" or run["ended"] == "incomplete" for run in scenarios)
+expected = {"tests": len(words) + len(scenarios) + len(summary["not_covered"]),
+            "failures": words.count("fail") + sum(run["beyond_validity"] for run in scenarios),
+            "errors": bad, "skipped": words.count("not checked") + len(summary["not_covered"])}
+for suites in ([root], root.findall("testsuite")):
+    for name, number in expected.items():
+        assert sum(int(suite.get(name)) for suite in suites) == number, (name, number)
+cases = root.findall("testsuite/testcase")
+assert len(cases) == expected["tests"]
+for tag, name in (("failure", "failures"), ("error", "errors"), ("skipped", "skipped")):
+    assert len([case for case in cases if case.find(tag) is not None]) == expected[name], name
+provisional = [case for case in cases if "PROVISIONAL" in (case.findtext("system-out") or "")]
+assert len(provisional) == sum(check["provisional"] for check in summary["checks"])
+assert all(suite.find("properties/property[@name='project']").get("value") == "Line 8 & 9 <x>" for suite in root)
+print(expected)
+END
+}
+if command -v python3 >/dev/null; then
+    junit() {
+        for settings in 'checks.design_rules=false' 'checks.design_rules=true' 'simulation.longest_s=0.05'; do
+            code=0
+            "$C" check three.yaml --set "$settings" --junit verdicts.xml -o out >out.txt 2>err.txt || code=$?
+            [ $code = 1 ] || [ $code = 3 ] || return 1
+            counts verdicts.xml out || { cat verdicts.xml; return 1; }
+        done
+        exits 1 "$C" check three.yaml --scenario fast --junit verdicts.xml -o out && counts verdicts.xml out && says verdicts.xml 'margin -'
+    }
+    check "--junit has a case for each check and run, with the counts of the JSON" junit
+    several() {
+        exits 2 "$C" check elastic.yaml nowhere.yaml low.yaml --junit all.xml && python3 -c 'import xml.etree.ElementTree as t
+root = t.parse("all.xml").getroot()
+assert [suite.get("name") for suite in root][0] == "elastic.yaml: collision", [suite.get("name") for suite in root]
+assert "nowhere.yaml: problem file" in [suite.get("name") for suite in root] and root.get("errors") == "1"'
+    }
+    check "--junit of several files is one document, with an error for a file that cannot be judged" several
+else
+    skipped "--junit has a case for each check and run, with the counts of the JSON" "no python3"
+    skipped "--junit of several files is one document, with an error for a file that cannot be judged" "no python3"
+fi
+written() {
+    "$C" run three.yaml --junit one.xml -o out -q >out.txt; "$C" run three.yaml --junit two.xml -j 1 -o out -q >out.txt
+    cmp one.xml two.xml && exits 4 "$C" check elastic.yaml --junit nowhere/one.xml && exits 4 "$C" check elastic.yaml --junit out/summary.json && ! says err.txt 'results in' && says err.txt 'is a result of crushzone'
+}
+check "a JUnit document is the same every time, and does not replace a result" written
 finish

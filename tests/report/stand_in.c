@@ -139,6 +139,11 @@ const CzInput *cz_problem_input(const CzProblem *problem) {
     return &input;
 }
 
+const CzProfile *cz_problem_profile(const CzProblem *problem) {
+    (void)problem;
+    return NULL;
+}
+
 CzTrack cz_problem_track(const CzProblem *problem) {
     return (CzTrack)cz_problem_input(problem)->simulation.track;
 }

@@ -16,10 +16,10 @@ CzStatus cz_page_write_run(const CzReport *report, int scenario, bool is_top, FI
     return CZ_OK;
 }
 
-CzStatus cz_page_write_pareto(const CzPareto *pareto, const char *title, FILE *stream,
+CzStatus cz_page_write_pareto(const CzPareto *pareto, const CzProblem *problem, FILE *stream,
                               CzError *error) {
     (void)pareto;
-    (void)title;
+    (void)problem;
     (void)error;
     fputs("report of a front\n", stream);
     return CZ_OK;

@@ -114,18 +114,22 @@ static void several_scenarios_show_the_worst_lines_and_every_failure(void **stat
     free(text);
 }
 
-static void checks_of_scenarios_left_out_are_one_line(void **state) {
+static void checks_of_a_scenario_without_a_run_are_one_line(void **state) {
     (void)state;
     StandIn s;
     stand_in_fill(&s);
-    s.check[1].is_omitted = s.check[2].is_omitted = true;
-    s.check[1].verdict = s.check[2].verdict = CZ_VERDICT_NOT_CHECKED;
-    s.check[2].name = s.check[0].name; /* no worse than the check that was made */
+    for (int i = 1; i < 4; i++) {
+        s.check[i].is_omitted = s.check[i].has_no_run = true;
+        s.check[i].scenario = i < 3 ? "18/low" : "18/high";
+        s.check[i].why = "this scenario was not run";
+    }
+    s.check[1].verdict = s.check[2].verdict = s.check[3].verdict = CZ_VERDICT_NOT_CHECKED;
     char *text = table_text(&s, false);
-    assert_has(text, "2 checks of scenarios that were not run: NOT CHECKED.\n");
+    assert_has(text, "\nNOT CHECKED: 2 checks of 18/low, this scenario was not run.\n");
+    assert_has(text, "\nNOT CHECKED: 1 check of 18/high, this scenario was not run.\n");
     assert_lacks(text, "mean deceleration");
     assert_lacks(text, "no stops are declared");
-    assert_has(text, "5 checks: 1 FAIL, 2 NOT CHECKED, 2 pass. Verdict: FAIL.\n");
+    assert_has(text, "5 checks: 1 FAIL, 3 NOT CHECKED, 1 pass. Verdict: FAIL.\n");
     free(text);
 }
 
@@ -243,8 +247,8 @@ static void numbers_are_short_and_not_rounded_to_a_limit(void **state) {
         double value;
         const char *plain, *percent, *margin;
     } rows[] = {{0, "0", "0 %", "+0 %"},
-                {3483.4, "3483", ">999 %", ">999 %"},
-                {-21.04, "-21.0", "<-999 %", "<-999 %"},
+                {3483.4, "3483", "> 999 %", "> 999 %"},
+                {-21.04, "-21.0", "< -999 %", "< -999 %"},
                 {9.994, "9.99", "999 %", "+999 %"},
                 {2.314, "2.31", "231 %", "+231 %"},
                 {-0.132, "-0.13", "-13 %", "-13 %"},
@@ -264,7 +268,7 @@ static void numbers_are_short_and_not_rounded_to_a_limit(void **state) {
     assert_string_equal(cz_figure_plain(text, NAN), "-");
     assert_string_equal(cz_figure_margin(text, NAN), "-");
     assert_string_equal(cz_figure_plain(text, 1e300), "1e+300");
-    assert_string_equal(cz_figure_change(text, 1e4), ">999 %");
+    assert_string_equal(cz_figure_change(text, 1e4), "> 999 %");
     assert_string_equal(cz_figure_fixed(text, 1, -0.04), "0.0");
     assert_string_equal(cz_figure_digits(text, 3, -0.0), "0");
 }
@@ -331,7 +335,7 @@ int main(void) {
         cmocka_unit_test(without_colour_there_is_no_escape_code),
         cmocka_unit_test(names_cannot_send_escape_codes),
         cmocka_unit_test(several_scenarios_show_the_worst_lines_and_every_failure),
-        cmocka_unit_test(checks_of_scenarios_left_out_are_one_line),
+        cmocka_unit_test(checks_of_a_scenario_without_a_run_are_one_line),
         cmocka_unit_test(a_rounded_value_does_not_hide_a_violated_limit),
         cmocka_unit_test(failed_and_incomplete_runs_are_named),
         cmocka_unit_test(without_checks_nothing_is_judged),

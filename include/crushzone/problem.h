@@ -75,5 +75,22 @@ CZ_API void cz_keys_write_schema(FILE *stream);
 CZ_API void cz_keys_write_help(FILE *stream);
 CZ_API void cz_keys_write_reference(FILE *stream);
 
+/* Writes the profiles beside the working folder and in the share folder, each with its edition,
+ * categories, and numbers of limits and scenarios. Options may be NULL. */
+CZ_API void cz_profiles_write_list(const CzProblemOptions *options, FILE *stream);
+
+typedef enum CzProfileContent {
+    CZ_PROFILE_LIMITS,   /* categories, limits, and what is not checked */
+    CZ_PROFILE_SCENARIOS /* and those that do not apply, with the reason */
+} CzProfileContent;
+
+/* Writes what a profile has, in one category or, with NULL, in all; settings of the options are
+ * ignored. Statuses: CZ_OK, CZ_STATUS_INPUT with the place of a mistake or a did-you-mean,
+ * CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_profile_write(const char *name, CzProfileContent content,
+                                               const char *category,
+                                               const CzProblemOptions *options, FILE *stream,
+                                               CzError *error);
+
 CZ_END_DECLARATIONS
 #endif

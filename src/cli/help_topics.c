@@ -5,6 +5,7 @@
 #include "crushzone/optimise.h"
 #include "crushzone/problem.h"
 #include "crushzone/report.h"
+#include "cli/session.h"
 
 #include "evaluate/results.h"
 #include "simulate/pulse.h"
@@ -223,21 +224,20 @@ static void write_paths(void) {
 }
 
 static void write_profiles(void) {
-    static const CzHelpEntry profiles[] = {
-        {"en15227-2008", "EN 15227:2008+A1:2010; categories C-I, C-II, C-III, C-IV"},
-        {"en15227-2020a1",
-         "EN 15227:2020+A1:2024, with lower confidence for announced changes; the same categories"},
-        {"us-49cfr238", "49 CFR 238, Tier III and the Tier I alternative"},
-        {"tbt3500-2018", "TB/T 3500-2018, multiple units of 200 km/h and above"},
-        {"cn-metro", "Chinese metro contracts"},
-        {"gmrt2100", "GM/RT2100 up to issue 4; categories issue-4, issue-3"},
-        {"collision-limits", "limits of EN 15227 for problems with scenarios of their own"}};
-    puts("A profile is a file of limits with clause, source and confidence; a problem takes it by\n"
-         "checks: {profile: NAME, category: C-II}. It is looked for as profiles/NAME.yaml beside "
-         "the\n"
-         "problem file, then where crushzone is installed. They contain no text of a standard, and "
-         "a\npass is not a certificate. Those that come with crushzone:\n");
-    write_entries((int)(sizeof profiles / sizeof *profiles), profiles, 16);
+    const CzProblemOptions options = {.share_folder = cz_share_folder};
+    puts(
+        "A profile is a file of limits and scenarios, each with clause, source and confidence; a "
+        "problem\ntakes it by checks: {profile: NAME, category: C-II, line_speed_km_h: 120}, where "
+        "it has categories\nand where a speed depends on that of the line. It is looked for as "
+        "profiles/NAME.yaml beside the\nproblem file, then where crushzone is installed. They "
+        "contain no text of a standard, and a pass\nis not a certificate.\n");
+    cz_profiles_write_list(&options, stdout);
+    puts("\n'crushzone profile show NAME' prints limits and categories, 'crushzone profile "
+         "scenarios "
+         "NAME'\nthe scenarios. A scenario of the file with the name or family of one of the "
+         "profile "
+         "replaces it;\nchecks: {scenarios: [NAME]} selects some, checks: {override: {\"NAME\": "
+         "{max: 4}}} changes a limit.");
     puts("\nA limit is confirmed by `confidence: S1`, read in the primary text, or `user`, set by "
          "you; what\nsatisfies any other is PROVISIONAL ('crushzone help verdicts').");
 }

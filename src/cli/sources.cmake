@@ -16,6 +16,7 @@ set(CZ_SOURCES_cli
     command_optimise.c
     command_pareto.c
     command_problem.c
+    command_profile.c
     command_run.c
     command_serve.c
     command_sample.c

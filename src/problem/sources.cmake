@@ -36,6 +36,7 @@ set(CZ_SOURCES_problem
     usual.c
     varying.c
     write_keys.c
+    write_profile.c
     write_resolved.c
     write_schema.c
     write_text.c

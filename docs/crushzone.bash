@@ -3,7 +3,7 @@ _crushzone() {
     local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} words='' options=''
     COMPREPLY=()
     if [ "$COMP_CWORD" = 1 ]; then
-        words='run check optimise sweep sample merge pareto challenge corridor dakota export explain verify bench serve report plot compare validate show fit new schema help version'
+        words='run check optimise sweep sample merge pareto challenge corridor dakota export explain verify bench serve report plot compare validate show profile fit new schema help version'
         COMPREPLY=($(compgen -W "$words" -- "$word"))
         return
     fi
@@ -39,6 +39,7 @@ _crushzone() {
     --curves | -n) return ;;
     --jobs | -j) return ;;
     --rounds) return ;;
+    --category) return ;;
     --as) return ;;
     --basis) words='static dynamic' ;;
     --stages) return ;;
@@ -82,8 +83,9 @@ _crushzone() {
     compare) options='--output --json --quiet --scenario --jobs --color --help' ;;
     validate) options='--json --quiet --set --color --help' ;;
     show) options='--quiet --set --scenario --time-step-ms --svg --color --help' ;;
+    profile) options='--category --help' ;;
     fit) options='--json --svg --as --basis --stages --name --stroke --force --stroke-unit --force-unit --zero --flip --scale --from --to --csv-sep --csv-decimal --help' ;;
-    new) options='--output --quiet --help' ;;
+    new) options='--output --quiet --category --help' ;;
     schema) options='--help' ;;
     help) options='--markdown --man --completion --help' ;;
     version) options='--json --help' ;;
@@ -91,11 +93,11 @@ _crushzone() {
     if [[ $word == -* ]]; then
         COMPREPLY=($(compgen -W "$options" -- "$word"))
     elif [ "${COMP_WORDS[1]}" = help ]; then
-        COMPREPLY=($(compgen -W 'keys units checks verdicts profiles parts paths algorithms channels results events figures files exit-codes run check optimise sweep sample merge pareto challenge corridor dakota export explain verify bench serve report plot compare validate show fit new schema help version' -- "$word"))
+        COMPREPLY=($(compgen -W 'keys units checks verdicts profiles parts paths algorithms channels results events figures files exit-codes run check optimise sweep sample merge pareto challenge corridor dakota export explain verify bench serve report plot compare validate show profile fit new schema help version' -- "$word"))
     elif [ "${COMP_WORDS[1]}" != new ]; then
         COMPREPLY=($(compgen -f -- "$word"))
     else
-        COMPREPLY=($(compgen -W 'two-trains buffer-stop wagon override' -- "$word"))
+        COMPREPLY=($(compgen -W 'two-trains buffer-stop wagon override en15227 us-49cfr238 cn-metro' -- "$word"))
     fi
 }
 complete -o filenames -F _crushzone crushzone

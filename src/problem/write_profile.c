@@ -113,9 +113,11 @@ static void write_texts(const char *before, const CzTexts *texts, FILE *stream) 
 
 static void write_limit(const CzLimit *limit, FILE *stream) {
     const bool is_minimum = isnan(limit->max);
+    char number[CZ_NUMBER_TEXT];
     fprintf(stream, "  %s\n      %s at %s %s [%s] %s\n", limit->name, limit->metric,
-            is_minimum ? "least" : "most", CZ_SHORT(is_minimum ? limit->min : limit->max),
-            limit->confidence, limit->clause);
+            is_minimum ? "least" : "most",
+            cz_number_print(number, is_minimum ? limit->min : limit->max), limit->confidence,
+            limit->clause);
     write_texts("      in ", &limit->scenarios, stream);
     write_texts("      for ", &limit->categories, stream);
     fprintf(stream, "      %s\n", limit->source);
@@ -127,7 +129,7 @@ static void write_limits(const View *view, FILE *stream) {
     if (whole->n_categories > 0)
         fputs("\nCategories:\n", stream);
     for (int i = 0; i < whole->n_categories; i++)
-        fprintf(stream, "  %-8s %s\n", whole->categories[i].name, whole->categories[i].title);
+        fprintf(stream, "  %-17s %s\n", whole->categories[i].name, whole->categories[i].title);
     fputs("\nLimits, with confidence, clause and source:\n", stream);
     for (int i = 0; i < whole->n_limits; i++)
         write_limit(&whole->limits[i], stream);

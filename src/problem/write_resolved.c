@@ -379,7 +379,7 @@ static void write_named(const Writer *writer, const CzKey *key, const char *memo
     for (int i = 0; i < n_item; i++, item += key->child->size) {
         fprintf(writer->stream, "%s%*s", writer->lead, indent + 2, "");
         cz_write_yaml_text(writer->stream,
-                   *(const char *const *)(const void *)(item + key->child->key->offset));
+                           *(const char *const *)(const void *)(item + key->child->key->offset));
         fputs(":\n", writer->stream);
         write_record(writer, &rest, item, indent + 4, "");
     }

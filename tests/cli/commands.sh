@@ -33,6 +33,19 @@ told_parts() { # of every shipped catalogue, and with a file those that it uses
         exits 2 "$C" help parts nothing.yaml && exits 2 "$C" help keys "$SOURCE/problems/wall.yaml" && says err.txt "'help keys' takes no file"
 }
 check "help parts lists the shipped catalogues, or the parts of a file, with kN, mm, kJ" told_parts
+profiles() {
+    exits 0 "$C" profile list && says out.txt 'categories: C-I, C-II, C-III, C-IV' &&
+        exits 0 "$C" profile show us-49cfr238 && says out.txt 'interfaces.colliding.underframe_rise_mm at most 101.6 [S1] 238.707(a)' && says out.txt 'collision and corner posts' &&
+        exits 0 "$C" profile scenarios en15227-2008 --category C-II && says out.txt 'onto an identical train at 18.75 km/h' && says out.txt 'there are no level crossings' && ! says out.txt 'C-III:' &&
+        exits 2 "$C" profile && exits 2 "$C" profile sow && exits 2 "$C" profile list x && exits 2 "$C" profile show &&
+        exits 2 "$C" profile show cn-metr && says err.txt "did you mean 'cn-metro'?" && exits 2 "$C" profile scenarios en15227-2008 --category C-2 && exits 2 "$C" profile show cn-metro --category a
+}
+check "profile lists profiles, limits and scenarios" profiles
+bad_profile() {
+    mkdir -p profiles && printf 'schema: 1\nname: bad\nedition: 1\nlimits:\n  - {name: a, metric: interfaces.peak_force_kN, max: 1, clause: b, confidence: M1}\n' >profiles/bad.yaml &&
+        exits 2 "$C" profile show bad && says err.txt "bad.yaml:5:5: error: limit 'a' of a profile lacks 'source'" && exits 0 "$C" profile list && says out.txt 'cannot be read'
+}
+check "a profile without a source is refused with its place" bad_profile
 told_checks() { "$C" help checks >told.txt && for word in profile category limits design_rules metric max min scenarios "stroke used:" "override:" interfaces.peak_force_kN; do grep -q "^  $word " told.txt || return 1; done; }
 check "help checks lists the keys of the section and every design rule" told_checks
 manual() { exits 0 "$C" help --man && for word in run optimise '\\-\\-json' 'exit\\-codes' 130; do grep -q -- "$word" out.txt || return 1; done; }
@@ -72,6 +85,18 @@ for template in buffer-stop wagon override; do
     [ $template = buffer-stop ] && code=0 || code=1
     check "template $template runs" usable $code
 done
+# The templates of standards have a train alone; the profile adds its collisions.
+en15227() {
+    exits 2 "$C" new en15227 && says err.txt "needs --category" && exits 2 "$C" new en15227 --category C-5 && exits 2 "$C" new wagon --category C-I &&
+        exits 0 "$C" new en15227 --category C-I && ! grep -q '@CATEGORY@\|^#:' en15227.yaml && exits 0 "$C" check en15227.yaml -q &&
+        says out.txt 'obstacle-15t   110 km/h' && says out.txt 'Not judged: wagon-80t' && says out.txt 'Verdict: PROVISIONAL' && ! says out.txt INCOMPLETE
+}
+check "template en15227 runs every scenario of its category" en15227
+standards() {
+    for category in C-II C-III C-IV; do "$C" new en15227 --category $category -q -o standard.yaml && exits 0 "$C" validate -q standard.yaml || return 1; rm standard.yaml; done
+    exits 0 "$C" new us-49cfr238 --category tier-1-cab && exits 0 "$C" validate -q us-49cfr238.yaml && exits 0 "$C" new cn-metro && exits 0 "$C" validate -q cn-metro.yaml
+}
+check "the other templates of standards are valid in each category" standards
 stroke() { exits 0 "$C" sweep override.yaml --scenario worst --vary 'parts.anti-climber.stages[0].stroke_mm=200:500:4' && grep -q '200   FAIL' out.txt && grep -q '500 .* +.* wheel lift / flange height' out.txt && ! says out.txt 'RUN FAILED'; }
 check "a longer anti-climber prevents override in the template, as its comment says" stroke
 sized() { exits 0 "$C" optimise wagon.yaml -o wagon && says out.txt 'FEASIBLE after' && says out.txt 'verification pass'; }

@@ -103,6 +103,35 @@ typedef struct CzReply {
     const CzSlope *slope; /* of a gradient (n_slope) */
 } CzReply;
 
+/* An input that differs between compared runs. Values are as resolved problems have them. */
+typedef struct CzInputDifference {
+    const char *path; /* of its first place, such as trains.A.vehicles.A1.front.stages[0].force, or
+                         of a record that some runs lack */
+    int n_place;      /* places that have the value from one line of a file */
+    const char *unit; /* of the numbers; "" for none */
+    const char *const *value;  /* text, a number in SI; "given" for a record; NULL: the run lacks it
+                                  (n_run) */
+    const double *number;      /* in the unit; NaN for a text (n_run) */
+    const char *const *origin; /* file and line, and part; "default" when it is not in a file, ""
+                                  where it is lacking (n_run) */
+} CzInputDifference;
+
+/* A number of the compared scenario that differs. */
+typedef struct CzNumberDifference {
+    const char *path; /* such as interfaces.A4-B1.peak_force_kN */
+    const char *unit;
+    const double *value; /* NaN where it is not known or the run lacks it (n_run) */
+} CzNumberDifference;
+
+/* Differences of compared runs. Open; texts and arrays belong to it. */
+typedef struct CzComparison {
+    int n_run;
+    int n_input, n_same_input;
+    CzInputDifference *input; /* (n_input) */
+    int n_number, n_same_number;
+    CzNumberDifference *number; /* (n_number) */
+} CzComparison;
+
 /* Results to write, all borrowed. Only the members of its kind are set. */
 typedef struct CzReport {
     CzReportKind kind;
@@ -120,8 +149,9 @@ typedef struct CzReport {
     const CzVerification *verification;
     const CzBenchmark *benchmark;
     const CzExplanation *explanation;
-    const CzReportRun *compared; /* (n_compared) */
-    int n_compared;              /* at most CZ_MOST_COMPARED */
+    const CzReportRun *compared;    /* (n_compared) */
+    int n_compared;                 /* at most CZ_MOST_COMPARED */
+    const CzComparison *comparison; /* of these runs; NULL: differences of inputs are not written */
     const CzFit *fit;
     const CzError *const *mistake; /* (n_mistake) */
     int n_mistake;
@@ -129,6 +159,12 @@ typedef struct CzReport {
 } CzReport;
 
 enum { CZ_MOST_COMPARED = 8 };
+
+/* Finds the differences of the compared runs of a report: of their inputs, and of all numbers of
+ * the compared scenario. Freed by the caller, before the runs. Status: CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_comparison_make(const CzReport *report, CzComparison **comparison,
+                                                 CzError *error);
+CZ_API void cz_comparison_free(CzComparison *comparison);
 
 /* The JSON document; an answer is one line. Statuses: CZ_STATUS_OUTPUT when the stream fails,
  * CZ_STATUS_NO_MEMORY. */

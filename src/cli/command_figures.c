@@ -113,13 +113,21 @@ int cz_command_plot(const CzArguments *arguments) {
 
 static int compare(const CzArguments *arguments, const CzResult *result) {
     CzReportRun run[CZ_MOST_COMPARED];
-    const CzReport report = {
+    CzReport report = {
         .kind = CZ_REPORT_COMPARISON, .compared = run, .n_compared = arguments->n_operand};
+    CzComparison *comparison = NULL;
+    CzError error = {0};
     for (int i = 0; i < arguments->n_operand; i++)
         run[i] = result[i].run;
-    const int code = cz_print_results(arguments, &report);
+    if (cz_comparison_make(&report, &comparison, &error) != CZ_OK)
+        return cz_tell_error(arguments, &error);
+    report.comparison = comparison;
     const char *page = arguments->text[CZ_OPTION_OUTPUT];
-    return code != 0 || page == NULL ? code : cz_result_write(arguments, page, write_page, &report);
+    int code = cz_print_results(arguments, &report);
+    if (code == 0 && page != NULL)
+        code = cz_result_write(arguments, page, write_page, &report);
+    cz_comparison_free(comparison);
+    return code;
 }
 
 int cz_command_compare(const CzArguments *arguments) {

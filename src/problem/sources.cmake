@@ -34,6 +34,7 @@ set(CZ_SOURCES_problem
     strokes.c
     trace.c
     usual.c
+    values.c
     varying.c
     write_keys.c
     write_profile.c

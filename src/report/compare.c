@@ -150,6 +150,33 @@ static bool is_known(const CzReport *report, const CzResult *result, const char 
     return false;
 }
 
+/* The change of a number from the first run to another one: "+12.3 (+5.4 %)"; empty for none. */
+static void put_difference(CzReportTable *table, double from, double to) {
+    char size[CZ_FIGURE_ROOM], share[CZ_FIGURE_ROOM];
+    if (isnan(from) || isnan(to) || from == to) {
+        cz_table_put(table, from == to ? "0" : "");
+        return;
+    }
+    cz_figure_plain(size, fabs(to - from));
+    if (from == 0)
+        cz_table_put_format(table, "%c%s", to > from ? '+' : '-', size);
+    else
+        cz_table_put_format(table, "%c%s (%s)", to > from ? '+' : '-', size,
+                            cz_figure_margin(share, (to - from) / fabs(from)));
+}
+
+/* Heads of the changes of all runs but the first. */
+static void add_changes(CzReportTable *table, const CzReport *report) {
+    for (int i = 1; i < report->n_compared; i++) {
+        char head[CZ_SENTENCE_ROOM];
+        if (report->n_compared == 2)
+            snprintf(head, sizeof head, ">change");
+        else
+            snprintf(head, sizeof head, ">change, %s", report->compared[i].label);
+        cz_table_head(table, head);
+    }
+}
+
 /* Shares are printed as plain numbers, whose digits show small differences. */
 static void put_numbers(CzReportTable *table, const CzReport *report, const CzResult *result,
                         const char *name) {
@@ -161,6 +188,9 @@ static void put_numbers(CzReportTable *table, const CzReport *report, const CzRe
         cz_figure_plain(text, factor * cz_compared_value(report, i, result, name));
         cz_table_put(table, cz_figure_mark(text, cz_compared_is_beyond(report, i)));
     }
+    for (int i = 1; i < report->n_compared; i++)
+        put_difference(table, factor * cz_compared_value(report, 0, result, name),
+                       factor * cz_compared_value(report, i, result, name));
 }
 
 void cz_compared_begin_numbers(CzReportTable *table, const CzReport *report, bool of_interface,
@@ -168,6 +198,7 @@ void cz_compared_begin_numbers(CzReportTable *table, const CzReport *report, boo
     const CzRunSummary *first = cz_compared_run(report, 0);
     const CzResult *const *result = of_interface ? of_interfaces : of_cars;
     begin(table, report, of_interface ? "interface;" : "car;");
+    add_changes(table, report);
     for (; *result != NULL; result++)
         for (int i = 0; i < count_of(first, of_interface); i++) {
             const char *name = name_of(first, of_interface, i);
@@ -176,13 +207,96 @@ void cz_compared_begin_numbers(CzReportTable *table, const CzReport *report, boo
         }
 }
 
+/* ---- differences ---- */
+
+/* The value of a run, in the unit of the difference. */
+static void put_input(CzReportTable *table, const CzInputDifference *input, int run) {
+    char text[CZ_FIGURE_ROOM];
+    if (input->value[run] == NULL)
+        cz_table_put(table, "-");
+    else if (isnan(input->number[run]))
+        cz_table_put(table, input->value[run]);
+    else
+        cz_table_put_format(table, "%s%s%s", cz_figure_digits(text, 8, input->number[run]),
+                            input->unit[0] != '\0' ? " " : "", input->unit);
+}
+
+/* Origins of a value: that of the first run that has it, and of the next one where it differs. */
+static void put_origin(CzReportTable *table, const CzInputDifference *input, int n_run) {
+    const char *first = "", *other = "";
+    for (int i = 0; i < n_run; i++)
+        if (first[0] == '\0')
+            first = input->origin[i];
+        else if (other[0] == '\0' && strcmp(input->origin[i], first) != 0)
+            other = input->origin[i];
+    cz_table_put_format(table, "%s%s%s", first, other[0] != '\0' ? "; " : "", other);
+}
+
+void cz_compared_begin_inputs(CzReportTable *table, const CzReport *report, int most) {
+    const CzComparison *comparison = report->comparison;
+    begin(table, report, "input;>places");
+    add_changes(table, report);
+    cz_table_head(table, "written in");
+    for (int k = 0; k < comparison->n_input && k < most; k++) {
+        const CzInputDifference *input = &comparison->input[k];
+        char text[CZ_FIGURE_ROOM];
+        snprintf(text, sizeof text, "%d", input->n_place);
+        cz_table_put(table, input->path);
+        cz_table_put(table, input->n_place > 1 ? text : "");
+        for (int i = 0; i < report->n_compared; i++)
+            put_input(table, input, i);
+        for (int i = 1; i < report->n_compared; i++)
+            put_difference(table, input->number[0], input->number[i]);
+        put_origin(table, input, report->n_compared);
+    }
+}
+
+void cz_compared_begin_differences(CzReportTable *table, const CzReport *report) {
+    const CzComparison *comparison = report->comparison;
+    begin(table, report, "result;");
+    add_changes(table, report);
+    for (int k = 0; k < comparison->n_number; k++) {
+        const CzNumberDifference *number = &comparison->number[k];
+        cz_table_put(table, number->path);
+        cz_table_put(table, number->unit);
+        for (int i = 0; i < report->n_compared; i++) {
+            char text[CZ_FIGURE_ROOM];
+            cz_figure_plain(text, number->value[i]);
+            cz_table_put(table, cz_figure_mark(text, cz_compared_is_beyond(report, i)));
+        }
+        for (int i = 1; i < report->n_compared; i++)
+            put_difference(table, number->value[0], number->value[i]);
+    }
+}
+
 /* ---- on the terminal ---- */
+
+/* Inputs that differ. */
+static void write_inputs(const CzReport *report, CzTerminal *terminal) {
+    enum { MOST_INPUTS = 40 };
+    const CzComparison *comparison = report->comparison;
+    CzReportTable table;
+    if (comparison == NULL)
+        return;
+    if (comparison->n_input == 0) {
+        fprintf(terminal->stream, "The inputs are equal: %d values.\n\n", comparison->n_same_input);
+        return;
+    }
+    cz_compared_begin_inputs(&table, report, MOST_INPUTS);
+    cz_table_write_text(&table, terminal);
+    if (comparison->n_input > MOST_INPUTS)
+        fprintf(terminal->stream, "and %d more, which the page and --json list.\n",
+                comparison->n_input - MOST_INPUTS);
+    fprintf(terminal->stream, "%d input%s, %d values are the same.\n\n", comparison->n_input,
+            comparison->n_input == 1 ? " differs" : "s differ", comparison->n_same_input);
+}
 
 void cz_comparison_write_table(const CzReport *report, CzTerminal *terminal) {
     CzReportTable table;
     int n_same;
     if (report->n_compared < 1 || cz_compared_run(report, 0) == NULL)
         return;
+    write_inputs(report, terminal);
     fprintf(terminal->stream, "scenario %s\n\n", cz_compared_run(report, 0)->scenario);
     cz_compared_begin_checks(&table, report, &n_same);
     cz_table_write_text(&table, terminal);
@@ -192,6 +306,11 @@ void cz_comparison_write_table(const CzReport *report, CzTerminal *terminal) {
     fputc('\n', terminal->stream);
     cz_compared_begin_numbers(&table, report, false, false);
     cz_table_write_text(&table, terminal);
+    if (report->comparison != NULL)
+        fprintf(terminal->stream,
+                "\n%d numbers of the scenario differ, %d are the same; the page and --json list "
+                "every one that differs.\n",
+                report->comparison->n_number, report->comparison->n_same_number);
     if (cz_compared_caution(report)[0] != '\0')
         cz_terminal_say(terminal, CZ_STYLE_BAD, "%s\n", cz_compared_caution(report));
 }

@@ -28,6 +28,11 @@ bool cz_compared_is_beyond(const CzReport *report, int i);
 /* Explanation of the mark when a run has it; empty when none has. */
 const char *cz_compared_caution(const CzReport *report);
 
+/* Tables of a comparison: inputs that differ, with their changes and origins, at most `most` of
+ * them; numbers that differ, in the order of the results. */
+void cz_compared_begin_inputs(CzReportTable *table, const CzReport *report, int most);
+void cz_compared_begin_differences(CzReportTable *table, const CzReport *report);
+
 /* Tables: checks that differ, and the number of equal ones; results of interfaces or cars, with
  * `known` only those that exist in a run. */
 void cz_compared_begin_checks(CzReportTable *table, const CzReport *report, int *n_same);

@@ -6,6 +6,8 @@
 #include "report/compare.h"
 #include "report/options.h"
 
+#include <limits.h>
+
 static void write_checks(CzMarkup *markup, const CzReport *report) {
     CzReportTable table;
     int n_same;
@@ -15,6 +17,34 @@ static void write_checks(CzMarkup *markup, const CzReport *report) {
     if (n_same > 0)
         cz_markup_write(markup, "<p>%d checks are the same.</p>", n_same);
     cz_markup_write(markup, "</section>\n");
+}
+
+static void write_inputs(CzMarkup *markup, const CzReport *report) {
+    const CzComparison *comparison = report->comparison;
+    CzReportTable table;
+    if (comparison == NULL)
+        return;
+    cz_markup_write(markup, "<section id='inputs'>\n<h2>Inputs</h2>\n");
+    if (comparison->n_input == 0) {
+        cz_markup_write(markup, "<p>The inputs are equal: %d values.</p></section>\n",
+                        comparison->n_same_input);
+        return;
+    }
+    cz_compared_begin_inputs(&table, report, INT_MAX);
+    cz_table_write_page(&table, markup);
+    cz_markup_write(markup, "<p>%d values are the same.</p></section>\n", comparison->n_same_input);
+}
+
+/* Every number that differs. */
+static void write_differences(CzMarkup *markup, const CzReport *report) {
+    CzReportTable table;
+    if (report->comparison == NULL || report->comparison->n_number == 0)
+        return;
+    cz_markup_write(markup, "<details><summary>All %d numbers that differ</summary>",
+                    report->comparison->n_number);
+    cz_compared_begin_differences(&table, report);
+    cz_table_write_page(&table, markup);
+    cz_markup_write(markup, "</details>\n");
 }
 
 static void write_numbers(CzMarkup *markup, const CzReport *report, bool of_interface) {
@@ -93,12 +123,15 @@ static void write_page(CzPage *page, const CzReport *report) {
                     page->summary->scenario);
     if (cz_compared_caution(report)[0] != '\0')
         cz_markup_write(markup, "<p class='fail'>%s</p>", cz_compared_caution(report));
+    write_inputs(markup, report);
     write_checks(markup, report);
     cz_markup_write(markup, "<section id='numbers'>\n<h2>Interfaces and cars</h2>\n"
                             "<div class='tables'>");
     write_numbers(markup, report, true);
     write_numbers(markup, report, false);
-    cz_markup_write(markup, "</div></section>\n");
+    cz_markup_write(markup, "</div>\n");
+    write_differences(markup, report);
+    cz_markup_write(markup, "</section>\n");
     write_loops(page);
     write_overlays(page, report);
     cz_page_write_foot(markup);

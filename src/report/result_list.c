@@ -252,6 +252,10 @@ static const CzSample *nth_failed(const CzSampling *sampling, int n) {
     return sample;
 }
 
+static double relative_change(double from, double to) {
+    return from != 0 ? (to - from) / fabs(from) : NAN;
+}
+
 /* ---- explanations ---- */
 
 /* The explained check that has a carrier. */

@@ -5,6 +5,7 @@
 #include "report/json.h"
 
 #include <math.h>
+#include <string.h>
 
 /* ---- values ---- */
 
@@ -192,4 +193,87 @@ void cz_results_write_line(CzRecord record, CzResultContext *context, const void
                            FILE *stream) {
     CzJson json = {.stream = stream, .is_line = true};
     put_record(&json, NULL, record, context, data);
+}
+
+/* ---- all numbers ---- */
+
+typedef struct Visit {
+    CzResultContext *context;
+    CzNumberVisitor *visit;
+    void *data;
+} Visit;
+
+static void visit_results(const Visit *visit, const char *path, CzRecord record, const void *data);
+
+/* The name of an item of a list, NULL for one without. */
+static const char *name_of_item(const CzResult *result, CzResultContext *context,
+                                const void *item) {
+    for (int i = 0; i < CZ_N_RESULT; i++)
+        if (cz_results[i].record == result->of && strcmp(cz_results[i].key, "name") == 0)
+            return cz_result_words(&cz_results[i], context, item);
+    return NULL;
+}
+
+static void visit_list(const Visit *visit, const char *path, const CzResult *result,
+                       const void *record) {
+    CzResultContext *context = visit->context;
+    const int outer = context->index;
+    const long n = result->number(context, record);
+    for (context->index = 0; context->index < n; context->index++) {
+        char inside[2 * CZ_PATH_ROOM];
+        const bool is_record = result->form == CZ_FORM_RECORD;
+        const void *item = is_record ? result->by.part(context, record) : NULL;
+        const char *name = result->name != NULL ? result->name(context, record)
+                           : is_record          ? name_of_item(result, context, item)
+                                                : NULL;
+        if (name != NULL)
+            snprintf(inside, sizeof inside, "%.380s.%.100s", path, name);
+        else
+            snprintf(inside, sizeof inside, "%.380s[%d]", path, context->index);
+        if (is_record)
+            visit_results(visit, inside, result->of, item);
+        else if (result->form == CZ_FORM_NUMBER)
+            visit->visit(inside, result, number_at(result, context, record, 0), visit->data);
+    }
+    context->index = outer;
+}
+
+static void visit_result(const Visit *visit, const char *path, const CzResult *result,
+                         const void *record) {
+    CzResultContext *context = visit->context;
+    char inside[2 * CZ_PATH_ROOM];
+    const bool is_number = result->form == CZ_FORM_NUMBER || result->form == CZ_FORM_WHOLE;
+    if (result->is_there != NULL && !result->is_there(context, record))
+        return;
+    snprintf(inside, sizeof inside, "%.380s%s%.100s", path, path[0] != '\0' ? "." : "",
+             result->key);
+    if (result->number != NULL) {
+        visit_list(visit, result->is_spread ? path : inside, result, record);
+    } else if (result->form == CZ_FORM_RECORD) {
+        visit_results(visit, inside, result->of, result->by.part(context, record));
+    } else if (is_number && result->member.n > 0) {
+        for (int i = 0; i < result->member.n; i++) {
+            char item[2 * CZ_PATH_ROOM + 16];
+            snprintf(item, sizeof item, "%s[%d]", inside, i);
+            visit->visit(item, result, number_at(result, context, record, i), visit->data);
+        }
+    } else if (is_number) {
+        visit->visit(inside, result, number_at(result, context, record, 0), visit->data);
+    }
+}
+
+static void visit_results(const Visit *visit, const char *path, CzRecord record, const void *data) {
+    for (int i = 0; i < CZ_N_RESULT; i++) {
+        const CzRecord of = cz_results[i].of;
+        const bool is_left_out = cz_results[i].form == CZ_FORM_RECORD &&
+                                 (of == CZ_RECORD_RUN_INFO || of == CZ_RECORD_EVENT);
+        if (cz_results[i].record == record && !is_left_out)
+            visit_result(visit, path, &cz_results[i], data);
+    }
+}
+
+void cz_results_visit(CzRecord record, CzResultContext *context, const void *data,
+                      CzNumberVisitor *visit, void *visitor) {
+    const Visit all = {context, visit, visitor};
+    visit_results(&all, "", record, data);
 }

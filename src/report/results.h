@@ -151,4 +151,10 @@ CZ_MUST_CHECK CzStatus cz_results_write(CzRecord record, CzResultContext *contex
 void cz_results_write_line(CzRecord record, CzResultContext *context, const void *data,
                            FILE *stream);
 
+/* Visits every number of a record and of the records in it, with its path, such as
+ * interfaces.A4-B1.peak_force_kN; not computing times, nor events, which have no names. */
+typedef void CzNumberVisitor(const char *path, const CzResult *result, double value, void *data);
+void cz_results_visit(CzRecord record, CzResultContext *context, const void *data,
+                      CzNumberVisitor *visit, void *visitor);
+
 #endif

@@ -210,7 +210,16 @@ compared_json() { # the numbers of both summaries, side by side
     json both.json vehicles.2.mean_deceleration_120ms_g.1 "$(json_of second/summary.json scenarios.0.vehicles.2.mean_deceleration_120ms_g)"
 }
 check "compare --json has the numbers of both summaries" compared_json
-compared_page() { exits 0 "$C" compare first second -o cmp.html && grep -q 'Force over closure, A4-B1' cmp.html && grep -q '>second<' cmp.html; }
+compared_inputs() { # of folders and files: value by value with unit, change, places and origin; a record that one lacks is one line
+    sed 's/{stroke_mm: 200, force_kN: 700}/{stroke_mm: 240, force_kN: 700}/; s/max: 1500,/max: 1600,/; s/^ *shear_off: .*//' two-trains.yaml >other.yaml
+    exits 0 "$C" compare first second && says out.txt 'trains.A.vehicles.A1.rear.coupler.tube.stages[0].force' && says out.txt '700 kN   800 kN   +100 (+14 %)' && says out.txt 'part cab-end; --set:1' && says out.txt '1 input differs, ' && says out.txt ' numbers of the scenario differ' &&
+        exits 0 "$C" compare two-trains.yaml other.yaml first && says out.txt '200 mm       240 mm   200 mm' && grep -q 'rear.coupler.shear_off  *4  *given  *-  *given' out.txt && says out.txt 'checks.limits.interface force.max' && says out.txt '3 inputs differ' &&
+        exits 0 "$C" compare first second --json && json out.txt equal_inputs false && json out.txt inputs.0.places 4 && json out.txt inputs.0.unit kN && json out.txt inputs.0.runs.1.change 100.0 && says out.txt interfaces.A4-B1.peak_force_kN
+}
+check "compare lists inputs that differ, and every number that changes" compared_inputs
+compared_equal() { exits 0 "$C" compare first two-trains.yaml && says out.txt 'The inputs are equal: ' && exits 0 "$C" compare first two-trains.yaml --json && json out.txt equal_inputs true && json out.txt inputs '[]'; }
+check "compare says that inputs are equal" compared_equal
+compared_page() { exits 0 "$C" compare first second -o cmp.html && grep -q 'Force over closure, A4-B1' cmp.html && grep -q '>second<' cmp.html && says cmp.html '<h2>Inputs</h2>' && says cmp.html 'trains.A.vehicles.A1.rear.coupler.tube.stages[0].force' && says cmp.html 'numbers that differ</summary>'; }
 check "compare writes a page" compared_page
 compared_one() { exits 2 "$C" compare first; }
 check "compare needs two operands" compared_one

@@ -62,14 +62,17 @@ typedef struct CzElementResult {
     double stored; /* still stored at the end [J] */
     double stroke; /* plastic stroke: tubes, anti-climber stages or crush zone together; of a buffer
                       without a tube its largest stroke [m] */
-    double stroke_used; /* largest share of any one device's usable stroke over the run [-]; 0 when
-                           it has none; of a coupler that has sheared off, the share of its
-                           retraction space. A buffer counts only without a tube or shear-off behind
-                           it */
-    double peak_force;  /* unfiltered largest force over all steps [N] */
-    double tube_energy; /* energy dissipated by the tubes and the shear-off of a coupler [J]; for
-                           other elements all of it */
-    bool sheared;       /* the coupler has sheared off */
+    double stroke_used;  /* largest share of any one device's usable stroke over the run [-]; 0 when
+                            it has none; of a coupler that has sheared off, the share of its
+                            retraction space. A buffer counts only without a tube or shear-off behind
+                            it */
+    double peak_force;   /* unfiltered largest force over all steps [N] */
+    double tube_energy;  /* energy dissipated by the tubes and the shear-off of a coupler [J]; for
+                            other elements all of it */
+    double early_energy; /* part of it before an earlier device of the end, in the sequence coupler
+                            or side buffers, anti-climber, end, was used up [J]; NaN of runs without
+                            pulses */
+    bool sheared;        /* the coupler has sheared off */
     bool bottomed_out; /* a device used its whole stroke, and no other device of the element follows
                           it */
     double zone_energy[3]; /* plastic energy by zone: crush, temporary, survival [J] */
@@ -97,8 +100,9 @@ typedef struct CzInterfaceResult {
     double margin_time;     /* time of the smallest vertical margin [s]; NaN likewise */
     double ramp;            /* largest slope of the faces while they push [-]; NaN likewise */
     double friction;        /* of the faces, for comparison [-]; NaN without anti-climbers */
-    double underframe_rise; /* largest change of the height of one underframe over the other at the
-                               pivots of the couplers [m]; NaN without couplers on underframes */
+    double underframe_rise; /* largest change of the height of one underframe over the other, at the
+                               pivots of the couplers or, without couplers, at the bare end
+                               structures [m]; NaN where neither can rise, and at a wall */
     double swing[2];        /* largest angle of the engaged coupler against its car, rear vehicle's
                                and front vehicle's [rad]; NaN without couplers */
     double swing_stop[2];   /* angle of their stops [rad]; NaN without */
@@ -131,8 +135,11 @@ typedef struct CzVehicleResult {
     double link_force;         /* largest traction link force [N] */
     double
         link_travel; /* largest travel of a bogie relative to the body at its traction link [m] */
-    double survival_shortening; /* stroke of survival zones, both ends [m]; NaN when no end has a
-                                   survival zone */
+    double bogie_acceleration;  /* largest |longitudinal acceleration| of a bogie frame, unfiltered
+                                   [m/s2] */
+    double survival_loss[2];    /* stroke of the survival zones of the rear and the front end [m];
+                                   NaN where an end has none */
+    double survival_shortening; /* sum of both [m]; NaN when neither end has a survival zone */
     bool checks_override;       /* bump and lift stops are given, so that override can be judged */
 } CzVehicleResult;
 

@@ -17,7 +17,7 @@ CzInterfaceEquipment cz_interface_equipment(const CzLanes *lanes, size_t lane) {
                       at.rows->draw_gear
                           .slack[i]<CZ_MISSING, .has_side_buffers = side_buffers->exists[i]> 0.5,
         .has_superstructures = at.rows->superstructure.strength[i] > 0.0,
-        .has_draw_gears = at.rows->draw_gear.slack[i] < CZ_MISSING,
+        .has_draw_gears = at.rows->draw_gear.slack[i]<CZ_MISSING, .tilts = at.rows->tilts[i]> 0.0,
         .can_climb = face->overlap[i] < CZ_MISSING,
         .friction = face->friction[i],
     };

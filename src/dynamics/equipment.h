@@ -13,6 +13,7 @@ typedef struct CzInterfaceEquipment {
     bool couplers_on_ends; /* one of them at least is fixed to an end mass */
     bool has_side_buffers; /* likewise */
     bool has_superstructures, has_draw_gears;
+    bool tilts;      /* one of the cars can rise and pitch, and the other one is not a wall */
     bool can_climb;  /* the overlap of its faces is limited */
     bool has_ribs;   /* two anti-climbers meet */
     double friction; /* of the faces [-] */

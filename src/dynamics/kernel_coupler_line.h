@@ -154,15 +154,16 @@ static int pivots_are_near(const CzBlock *d) {
     return n_near > 0.0;
 }
 
-/* Change of the height of one underframe over the other at the pivots. */
+/* Change of the height of one underframe over the other. */
 static void underframe_extremes(CzBlock *d) {
     const CzCarrier own = own_body(d), ahead = body_at(d, 1);
-    const CzPairRows *restrict pivot = &d->parameter.coupler.pivot;
+    const double *restrict x_own = d->parameter.underframe_x[0], *restrict x_ahead =
+                                                                     d->parameter.underframe_x[1];
     const double *restrict tilts = d->parameter.tilts;
     double *restrict rise = d->extreme.underframe_rise;
     CZ_LANES (i) {
-        const double here = own.displacement->z[i] + pivot->x[0][i] * own.turned->sine[i];
-        const double there = ahead.displacement->z[i] + pivot->x[1][i] * ahead.turned->sine[i];
+        const double here = own.displacement->z[i] + x_own[i] * own.turned->sine[i];
+        const double there = ahead.displacement->z[i] + x_ahead[i] * ahead.turned->sine[i];
         rise[i] = cz_larger(rise[i], tilts[i] * fabs(there - here));
     }
 }

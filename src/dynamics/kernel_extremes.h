@@ -115,6 +115,7 @@ static void car_extremes(CzBlock *d, double time) {
     for (int bogie = 0; bogie < 2; ++bogie) {
         keep_larger_size(kept->link_force, d->published.link[bogie].force);
         keep_larger_size(kept->link_travel, d->published.link[bogie].travel);
+        keep_larger_size(kept->bogie_acceleration, d->acceleration.bogie[bogie].x);
     }
     keep_larger_size(kept->body_pitch, d->position.body.pitch);
     for (int end = 0; end < 2; ++end)
@@ -136,10 +137,8 @@ static void extremes(const CzLanes *lanes, CzBlock *d, double time) {
     CzExtremes *kept = &d->extreme;
     interface_extremes(d, time);
     face_extremes(d, time);
-    if (lanes->has.couplers) {
-        underframe_extremes(d);
+    if (lanes->has.couplers)
         coupler_extremes(d);
-    }
     if (lanes->has.side_buffers)
         side_buffer_extremes(d);
     if (lanes->has.superstructures)
@@ -150,8 +149,10 @@ static void extremes(const CzLanes *lanes, CzBlock *d, double time) {
         keep_larger(kept->section[end], d->published.section[end]);
     keep_larger_size(kept->body_acceleration, d->acceleration.body.x);
     chain_extremes(d);
-    if (lanes->has.full_cars)
+    if (lanes->has.full_cars) {
+        underframe_extremes(d);
         car_extremes(d, time);
+    }
     if (lanes->has.drag) {
         keep_larger_size(kept->slide_travel, d->position.body.x);
         keep_larger(kept->slide_force, d->published.slide_force);

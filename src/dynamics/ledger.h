@@ -42,17 +42,16 @@ typedef struct CzExtremes {
     CzRow face_lost_overlap; /* CZ_NOT_YET; minus the remaining overlap while the faces push [m] */
     CzRow face_overlap_time, face_margin_time; /* when overlap and margin were smallest [s] */
     CzRow face_ramp;                           /* slope of the faces while they push [-] */
-    CzRow underframe_rise;   /* change of the height of one underframe over the other at the pivots
-                                [m] */
-    CzRow swing_vertical[2]; /* angle of the engaged coupler against its car [rad] */
-    CzRow face_climbed;      /* 1 once the faces had no overlap left under load */
-    CzRow end_force[2];      /* of the rear and the front crush zone [N] */
-    CzRow section[2];        /* force through the section behind an end, all load paths [N] */
-    CzRow link_force, link_travel;           /* of a traction link [N], of a bogie there [m] */
-    CzRow body_acceleration;                 /* longitudinal [m/s2] */
-    CzRow body_pitch;                        /* [rad] */
-    CzRow lift[4], lift_time[4];             /* of a wheelset over the rail [m], and when [s] */
-    CzRow bogie_lift[2], bogie_lift_time[2]; /* of the lower wheelset of a bogie */
+    CzRow underframe_rise;         /* change of the height of one underframe over the other [m] */
+    CzRow swing_vertical[2];       /* angle of the engaged coupler against its car [rad] */
+    CzRow face_climbed;            /* 1 once the faces had no overlap left under load */
+    CzRow end_force[2];            /* of the rear and the front crush zone [N] */
+    CzRow section[2];              /* force through the section behind an end, all load paths [N] */
+    CzRow link_force, link_travel; /* of a traction link [N], of a bogie there [m] */
+    CzRow body_acceleration, bogie_acceleration; /* longitudinal, of either bogie frame [m/s2] */
+    CzRow body_pitch;                            /* [rad] */
+    CzRow lift[4], lift_time[4];                 /* of a wheelset over the rail [m], and when [s] */
+    CzRow bogie_lift[2], bogie_lift_time[2];     /* of the lower wheelset of a bogie */
     CzRow climb_time;                /* CZ_NOT_YET; minus the time of the first override [s] */
     CzRow slide_travel, slide_force; /* of a buffer stop: travel [m]; jaws and end stop [N] */
     CzRow chain_residual;            /* closure that the series chains left unbalanced [m] */

@@ -50,6 +50,11 @@ double cz_length_used(const CzEnd *end) {
     return path / end->available_length;
 }
 
+double cz_length_before(const CzEnd *end) {
+    return isnan(end->available_length) ? end->face_gap + cz_free_stroke(end)
+                                        : end->available_length;
+}
+
 double cz_coupler_length_used(const CzEnd *end) {
     const CzCoupler *coupler = &end->coupler;
     if (!coupler->given)
@@ -174,6 +179,39 @@ double cz_shear_off_over_strength(const CzEnd *end) {
     if (!coupler->given || !coupler->shear_off.given)
         return 0;
     return coupler->shear_off.force / end->proof_strength;
+}
+
+double cz_buffer_over_tube(const CzEnd *end) {
+    const CzCoupler *coupler = &end->coupler;
+    if (!coupler->given || !coupler->tube.given)
+        return NAN;
+    const double standing = 0; /* at this rate the tube is weakest */
+    return last_stage_force(&coupler->buffer) /
+           cz_crushing_force(end, CZ_ELEMENT_COUPLER, standing);
+}
+
+double cz_anti_climber_over_end(const CzEnd *end, double rate) {
+    const double behind = cz_plastic_force(end, CZ_ELEMENT_END, rate);
+    return end->anti_climber.given && behind > 0
+               ? anti_climber_force(&end->anti_climber, rate) / behind
+               : NAN;
+}
+
+double cz_end_over_strength(const CzEnd *end) {
+    double force = backbone_force(NULL, 0, &end->curve);
+    for (int i = 0; i < end->n_stages; i++)
+        if (end->stages[i].zone != CZ_ZONE_SURVIVAL)
+            force = fmax(fmax(force, end->stages[i].force), end->stages[i].end_force);
+    return force > 0 ? force / end->proof_strength : 0;
+}
+
+double cz_force_ladder(const CzEnd *end, double rate) {
+    const double of_strength[] = {cz_shear_off_over_strength(end), cz_end_over_strength(end)};
+    if (isnan(of_strength[0]) || isnan(of_strength[1]))
+        return NAN;
+    const double of_coupler = fmax(cz_buffer_over_tube(end), cz_tube_over_shear_off(end, rate));
+    return fmax(fmax(of_strength[0], of_strength[1]),
+                fmax(of_coupler, cz_anti_climber_over_end(end, rate))); /* ignores NaN */
 }
 
 /* The device at a place of a train, counted from the first vehicle, rear before front. */

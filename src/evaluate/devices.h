@@ -19,9 +19,20 @@ double cz_length_used(const CzEnd *end);
 double cz_coupler_length_used(const CzEnd *end);
 double cz_retraction_used(const CzEnd *end);
 
+/* Length of an end in front of its survival space: as declared, else to the end of its crush zone
+ * [m]. */
+double cz_length_before(const CzEnd *end);
+
 /* The force ladder. `rate` is the crush rate for the tube's force [m/s]. */
 double cz_tube_over_shear_off(const CzEnd *end, double rate);
 double cz_shear_off_over_strength(const CzEnd *end);
+/* Further steps of the force ladder: NaN where an end does not have both. That of the crush zone is
+ * 0 without one, NaN without a strength. */
+double cz_buffer_over_tube(const CzEnd *end);
+double cz_anti_climber_over_end(const CzEnd *end, double rate);
+double cz_end_over_strength(const CzEnd *end);
+/* The largest of all steps; NaN when the strength that one needs is not declared. */
+double cz_force_ladder(const CzEnd *end, double rate);
 
 /* Sums over the vehicles of a train; part_count counts devices that differ. NaN without devices. */
 double cz_train_installed_length(int n_vehicle, const CzVehicle *vehicle);

@@ -60,6 +60,23 @@ static double judged_section_force(const CzPlace *place) {
     return force;
 }
 
+/* Peak force of an interface over the smaller proof strength of its ends, except those of an
+ * obstacle and walls. */
+static double force_over_strength(const CzPlace *place) {
+    double strength = INFINITY;
+    for (int side = 0; side < 2; side++) {
+        const int vehicle = place->interface_index + side;
+        const CzVehicle *record = &place->vehicles[place->scene->record[vehicle]];
+        const CzEnd *end = side == 0 ? &record->front : &record->rear;
+        if (!is_judged(place, vehicle) || record->model == CZ_MODEL_FIXED)
+            continue;
+        if (isnan(end->proof_strength))
+            return NAN;
+        strength = fmin(strength, end->proof_strength);
+    }
+    return isfinite(strength) ? place->interface->peak_force / strength : NAN;
+}
+
 /* Closure between the end structures over the clearance less the folded gangways; 0 at the
  * colliding interface, which has no gangway. */
 static double inner_gap_used(const CzPlace *place) {
@@ -138,6 +155,37 @@ static double judged_survival(const CzPlace *place) {
             if (is_judged(place, run->interface[i].element[k].vehicle))
                 energy += run->interface[i].element[k].zone_energy[CZ_ZONE_SURVIVAL];
     return energy;
+}
+
+/* Largest reduction in length of the survival space within a stretch of the length `over`. A loss
+ * is at one end of the space, so that a stretch has both only where the space is not longer. */
+static double survival_loss(const CzPlace *place) {
+    const double *loss = place->vehicle->survival_loss, over = place->parameter[0];
+    const double space = place->record->length - cz_length_before(&place->record->front) -
+                         cz_length_before(&place->record->rear);
+    if (space > over)
+        return fmax(loss[0], loss[1]); /* ignores NaN */
+    const double sum = place->vehicle->survival_shortening;
+    return space > 0 ? sum * over / space : sum;
+}
+
+/* Stroke of an end in its stages of zone `temporary`. */
+static double temporary_shortening(const CzPlace *place) {
+    const double stroke = place->element != NULL ? place->element->stroke : 0;
+    double from = 0, taken = 0;
+    for (int k = 0; k < place->end->n_stages; k++) {
+        const double to = from + place->end->stages[k].stroke;
+        if (place->end->stages[k].zone == CZ_ZONE_TEMPORARY)
+            taken += fmax(fmin(stroke, to) - from, 0);
+        from = to;
+    }
+    return taken;
+}
+
+/* That over the length of the space; an end with a length of zero has no such space. */
+static double temporary_share(const CzPlace *place) {
+    const double length = place->end->temporary_length;
+    return length == 0 ? 0 : temporary_shortening(place) / length;
 }
 
 /* Largest force of a coupler of the interface; NaN when it has none. */

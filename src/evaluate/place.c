@@ -115,6 +115,15 @@ static void visit_elements(Walk *walk, bool is_colliding) {
     }
 }
 
+/* The crush zone of a vehicle at an interface; NULL without one. */
+static const CzElementResult *end_of(const CzInterfaceResult *interface, int vehicle) {
+    for (int i = 0; i < interface->n_element; i++)
+        if (interface->element[i].kind == CZ_ELEMENT_END &&
+            interface->element[i].vehicle == vehicle)
+            return &interface->element[i];
+    return NULL;
+}
+
 /* A section is named by its interface, which an obstacle shares with the train. */
 static void visit_sections(Walk *walk, bool is_colliding) {
     const CzInterfaceResult *interface = walk->place.interface;
@@ -128,6 +137,7 @@ static void visit_sections(Walk *walk, bool is_colliding) {
             continue;
         walk->place.end = side == 0 ? &record->front : &record->rear;
         walk->place.section_force = interface->section_force[side];
+        walk->place.element = end_of(interface, vehicle);
         char name[CZ_WHERE_ROOM];
         snprintf(name, sizeof name, "%s %s", walk->subject->run->vehicle[vehicle].name,
                  side == 0 ? "front" : "rear");

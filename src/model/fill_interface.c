@@ -290,6 +290,20 @@ static void fill_pivot(const Pair *pair, int which, double height) {
         rows->side[which].strut_length[i] = length;
 }
 
+/* Heights of underframes are compared at the pivots of the couplers at rest, else at the bare end
+ * structures. */
+static void fill_underframes(const Pair *pair) {
+    for (int which = CZ_SIDE_A; which <= CZ_SIDE_B; which++) {
+        const Side *side = &pair->side[which];
+        const double bare = side->end->given ? side->end->face_gap : 0.0;
+        const double behind = side->part[COUPLER].is_there
+                                  ? side->part[COUPLER].gap + strut_length(pair, which)
+                                  : bare;
+        pair->rows->underframe_x[which][pair->i] =
+            side->is_full ? side->sign * (side->plane - behind) : 0.0;
+    }
+}
+
 static void fill_overload_devices(const Pair *pair, int which, const CzCoupler *coupler) {
     CzShearOffRows *shear = &pair->rows->coupler.side[which].shear;
     CzHingeRows *turns = &pair->rows->coupler.side[which].hinge_vertical;
@@ -567,6 +581,7 @@ CzStatus cz_fill_interface(const CzFill *fill, int interface, const CzStatics *b
     set_offsets(&pair);
     find_pairs(&pair);
     CZ_TRY(place_cars(&pair));
+    fill_underframes(&pair);
     CZ_TRY(fill_couplers(&pair));
     CZ_TRY(fill_faces(&pair));
     fill_superstructures(&pair);

@@ -212,6 +212,8 @@ typedef struct CzParameters {
         tilts; /* of the interface: 1 where one of its cars can move vertically and pitch and the
                   other is not a wall: lines and faces tilt, couplers are struts; 0 elsewhere: every
                   force acts along the track, and a wall is a smooth vertical plane, a mirror */
+    CzRow underframe_x[2]; /* of the interface: where heights of the underframes are compared, from
+                              the centres of gravity of the bodies [m] */
     CzCouplerRows coupler;
     CzFaceRows face;
     CzSuperstructureRows superstructure;

@@ -220,9 +220,14 @@ static void record_end(Recording *recording) {
 
 /* Adds a sample to the histories of the designs without a summary. */
 static CzStatus add_history(const CzBatch *batch) {
-    for (int design = 0; design < batch->n_design; ++design)
-        if (!batch->design[design].has_summary && cz_history_add(batch, design) != CZ_OK)
+    for (int design = 0; design < batch->n_design; ++design) {
+        if (batch->design[design].has_summary)
+            continue;
+        if (cz_history_add(batch, design) != CZ_OK)
             return CZ_STATUS_NO_MEMORY;
+        if (batch->keeps_pulses)
+            cz_sequence_look(batch, design);
+    }
     return CZ_OK;
 }
 

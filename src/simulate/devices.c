@@ -74,6 +74,7 @@ static CzDevice device_of(const CzBatch *batch, int interface, int design, int s
                       .row = kind->row[which],
                       .lane = own,
                       .usable = is_there ? usable : INFINITY,
+                      .curve = kind->limit == CURVE ? kind->of[which] : -1,
                       .is_reversible = kind->kind == REVERSIBLE};
 }
 
@@ -92,18 +93,25 @@ int cz_devices_list(const CzBatch *batch, int interface, int design, int side,
     return n;
 }
 
-static double stroke_of(const CzBatch *batch, const CzDevice *device) {
+double cz_device_stroke_now(const CzBatch *batch, const CzDevice *device) {
     return device->from_extremes ? cz_extreme(batch, device->row, device->lane)
                                  : cz_memory(batch, device->row, device->lane);
+}
+
+double cz_device_energy(const CzBatch *batch, const CzDevice *device) {
+    const double stroke = cz_device_stroke_now(batch, device);
+    return device->curve < 0
+               ? 0.0
+               : cz_curve_integral(&batch->lanes->curve[device->curve], device->lane, stroke);
 }
 
 /* Adds one device to its element. Where another device follows, travel beyond the stroke is the
  * deflection of a stop. For a coupler that has sheared off only the retraction space counts. */
 static void judge(const CzBatch *batch, const CzDevice *device, CzElementResult *element) {
-    const double used = stroke_of(batch, device) / device->usable;
+    const double used = cz_device_stroke_now(batch, device) / device->usable;
     element->bottomed_out |= !device->is_followed && used > 1.0;
     if (device->is_reversible && !device->is_followed)
-        element->stroke = stroke_of(batch, device);
+        element->stroke = cz_device_stroke_now(batch, device);
     if (device->class == CZ_DEVICE_RETRACTION)
         element->stroke_used = element->sheared ? used : element->stroke_used;
     else if (!device->is_reversible || !device->is_followed)

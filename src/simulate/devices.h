@@ -20,6 +20,7 @@ typedef struct CzDevice {
     int row;
     size_t lane;
     double usable;      /* usable stroke [m] */
+    int curve;          /* of its force over the stroke; -1 without one */
     bool is_reversible; /* extends again after its stroke */
     bool is_followed;   /* another device of the element deflects after it */
 } CzDevice;
@@ -27,6 +28,10 @@ typedef struct CzDevice {
 /* Devices of side A (0) or B (1) of an interface, in the order of the list; returns how many. */
 int cz_devices_list(const CzBatch *batch, int interface, int design, int side,
                     CzDevice device[CZ_N_DEVICE]);
+
+/* Largest stroke so far [m], and the energy under the device's curve up to it [J]. */
+double cz_device_stroke_now(const CzBatch *batch, const CzDevice *device);
+double cz_device_energy(const CzBatch *batch, const CzDevice *device);
 
 /* Sets the share of stroke used and bottoming out in the elements of a side. */
 void cz_devices_judge(const CzBatch *batch, int interface, int design, int side, int n_element,

@@ -259,8 +259,8 @@ static void fill_climbing(const CzBatch *batch, int interface, int design,
         extreme_if(!isnan(result->vertical_margin), batch, CZ_EXTREME(face_margin_time), lane);
     result->ramp = extreme_if(pushed, batch, CZ_EXTREME(face_ramp), lane);
     result->friction = pushed ? of->friction : NAN;
-    result->underframe_rise = extreme_if(of->has_couplers && !of->couplers_on_ends, batch,
-                                         CZ_EXTREME(underframe_rise), lane);
+    result->underframe_rise = extreme_if(of->tilts || (of->has_couplers && !of->couplers_on_ends),
+                                         batch, CZ_EXTREME(underframe_rise), lane);
     for (int side = 0; side < 2; ++side) {
         const double stop = of->side[side].swing_stop;
         result->swing[side] =
@@ -293,6 +293,7 @@ void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterf
         CzElementResult *first = &result->element[result->n_element];
         const int n = fill_side(batch, lane, side, interface + side, design, first);
         cz_devices_judge(batch, interface, design, side, n, first);
+        cz_sequence_judge(batch, interface, design, side, n, first);
         for (int k = 0; k < n; ++k) {
             name_element(&first[k], batch, design);
             if (first[k].kind == CZ_ELEMENT_END)
@@ -306,34 +307,39 @@ void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterf
     }
 }
 
-/* Shortening of survival space at the ends; NaN when no end declares such a zone and none was
- * crushed beyond its stages. */
-static double survival_shortening(const CzBatch *batch, int car, int design) {
-    double lost = NAN;
-    for (int side = 0; side < 2; ++side) {
-        const CzEnd *end = cz_end_at(batch, car, design, side);
-        const int interface = side == 0 ? car : car - 1;
-        CzElementResult result = {0};
-        if (interface < 0 || interface >= batch->n_car - 1 ||
-            !fill_end(batch, cz_lane(batch, interface, design), side, car, design, &result))
-            continue;
-        cz_devices_judge(batch, interface, design, side, 1, &result);
-        double from = 0.0, taken = 0.0;
-        bool declares = result.bottomed_out;
-        for (int k = 0; k < end->n_stages; ++k) {
-            const double to = from + end->stages[k].stroke;
-            if (end->stages[k].zone == CZ_ZONE_SURVIVAL) {
-                declares = true;
-                taken += fmax(fmin(result.stroke, to) - from, 0.0);
-            }
-            from = to;
+/* Shortening of survival space at the end at side A (0) or B (1) of its interface; NaN when the end
+ * declares no such zone and was not crushed beyond its stages. */
+static double survival_loss(const CzBatch *batch, int car, int design, int side) {
+    const CzEnd *end = cz_end_at(batch, car, design, side);
+    const int interface = side == 0 ? car : car - 1;
+    CzElementResult result = {0};
+    if (interface < 0 || interface >= batch->n_car - 1 ||
+        !fill_end(batch, cz_lane(batch, interface, design), side, car, design, &result))
+        return NAN;
+    cz_devices_judge(batch, interface, design, side, 1, &result);
+    double from = 0.0, taken = 0.0;
+    bool declares = result.bottomed_out;
+    for (int k = 0; k < end->n_stages; ++k) {
+        const double to = from + end->stages[k].stroke;
+        if (end->stages[k].zone == CZ_ZONE_SURVIVAL) {
+            declares = true;
+            taken += fmax(fmin(result.stroke, to) - from, 0.0);
         }
-        if (result.bottomed_out)
-            taken += result.stroke - result.stroke / result.stroke_used;
-        if (declares)
-            lost = (isnan(lost) ? 0.0 : lost) + taken;
+        from = to;
     }
-    return lost;
+    if (result.bottomed_out)
+        taken += result.stroke - result.stroke / result.stroke_used;
+    return declares ? taken : NAN;
+}
+
+/* The losses at both ends and their sum; NaN when neither end has one. */
+static void fill_survival(const CzBatch *batch, int car, int design, CzVehicleResult *result) {
+    double *loss = result->survival_loss;
+    for (int end = 0; end < 2; ++end)
+        loss[end] = survival_loss(batch, car, design, 1 - end);
+    result->survival_shortening = isnan(loss[1])   ? loss[0]
+                                  : isnan(loss[0]) ? loss[1]
+                                                   : loss[1] + loss[0];
 }
 
 /* Fills the decelerations, and the results that only a kept pulse has. */
@@ -383,7 +389,8 @@ CzStatus cz_vehicle_fill(const CzBatch *batch, int car, int design, CzArena *are
     result->max_pitch = extreme_if(full, batch, CZ_EXTREME(body_pitch), lane);
     result->link_force = extreme_if(full, batch, CZ_EXTREME(link_force), lane);
     result->link_travel = extreme_if(full, batch, CZ_EXTREME(link_travel), lane);
-    result->survival_shortening = survival_shortening(batch, car, design);
+    result->bogie_acceleration = extreme_if(full, batch, CZ_EXTREME(bogie_acceleration), lane);
+    fill_survival(batch, car, design, result);
     result->checks_override = full && description->has_stops;
     return CZ_OK;
 }

@@ -64,6 +64,13 @@ typedef struct CzTrackAccount {
     CzRow stored; /* [J] */
 } CzTrackAccount;
 
+/* Energy that the devices of the two sides of an interface had dissipated when an earlier device of
+ * their end last had stroke left, by their place in the sequence [J]. */
+enum { CZ_N_SEQUENCE = 3 };
+typedef struct CzEarly {
+    double energy[2][CZ_N_SEQUENCE];
+} CzEarly;
+
 /* A batch that is simulated: designs, each in its own scenario. */
 typedef struct CzBatch {
     CzArena arena;
@@ -86,6 +93,7 @@ typedef struct CzBatch {
     double history_step;          /* of the samples [s] */
     CzProgressOfDesign *design;   /* (n_design) */
     struct CzInterfaceLoad *load; /* by lane */
+    CzEarly *early;               /* by lane; NULL without pulses */
 } CzBatch;
 
 /* Lane of a car of a design. */
@@ -149,6 +157,12 @@ CZ_MUST_CHECK CzStatus cz_history_add(const CzBatch *batch, int design);
 void cz_history_free(CzHistory *history);
 /* The pulse of a car, in memory of the arena; false when there is none left. */
 bool cz_history_pulse(const CzBatch *batch, int car, int design, CzArena *arena, CzPulse *pulse);
+
+/* sequence.c: notes the sequence of the devices at a sample; sets the early energy of the elements
+ * of a side, NaN where it was not noted. */
+void cz_sequence_look(const CzBatch *batch, int design);
+void cz_sequence_judge(const CzBatch *batch, int interface, int design, int side, int n_element,
+                       CzElementResult *element);
 
 /* accounts.c: updates the accounts of a design for this step. */
 void cz_accounts_take(const CzBatch *batch, int design);

@@ -19,6 +19,7 @@ set(CZ_SOURCES_simulate
     reference.c
     rest.c
     run.c
+    sequence.c
     summary.c
     validity.c
     watch.c

@@ -101,7 +101,7 @@ static void fill_chains(const CzBatch *batch, int design, CzRunSummary *summary)
 /* Results that a failed run does not have. */
 static void blank_element(CzElementResult *element) {
     element->energy = element->stored = element->stroke = element->stroke_used = NAN;
-    element->peak_force = element->tube_energy = NAN;
+    element->peak_force = element->tube_energy = element->early_energy = NAN;
     element->zone_energy[0] = element->zone_energy[1] = element->zone_energy[2] = NAN;
 }
 
@@ -126,7 +126,8 @@ static void blank_vehicle(CzVehicleResult *result) {
         result->wheel_lift[axle] = result->wheel_lift_time[axle] = NAN;
     result->bogie_lift = result->bogie_lift_time = result->max_pitch = result->link_force =
         result->survival_shortening = NAN;
-    result->link_travel = NAN;
+    result->link_travel = result->bogie_acceleration = NAN;
+    result->survival_loss[0] = result->survival_loss[1] = NAN;
 }
 
 static CzStatus fill_critical_forces(const CzBatch *batch, int design, CzRun *run,

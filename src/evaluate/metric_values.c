@@ -182,10 +182,13 @@ static double temporary_shortening(const CzPlace *place) {
     return taken;
 }
 
-/* That over the length of the space; an end with a length of zero has no such space. */
+/* That over the length of the space; 0 for an end without such stages, whose crush zone is
+ * unoccupied. */
 static double temporary_share(const CzPlace *place) {
-    const double length = place->end->temporary_length;
-    return length == 0 ? 0 : temporary_shortening(place) / length;
+    bool is_occupied = false;
+    for (int k = 0; k < place->end->n_stages; k++)
+        is_occupied |= place->end->stages[k].zone == CZ_ZONE_TEMPORARY;
+    return is_occupied ? temporary_shortening(place) / place->end->temporary_length : 0;
 }
 
 /* Largest force of a coupler of the interface; NaN when it has none. */

@@ -79,7 +79,7 @@ _crushzone() {
     bench) options='--json --quiet --set --scenario --time-step-ms --rounds --color --help' ;;
     serve) options='--quiet --set --scenario --time-step-ms --jobs --color --help' ;;
     report) options='--output --quiet --scenario --jobs --help' ;;
-    plot) options='--quiet --set --scenario --what --at --measured --column --svg --jobs --csv-sep --csv-decimal --help' ;;
+    plot) options='--quiet --set --scenario --vary --what --at --measured --column --svg --jobs --csv-sep --csv-decimal --help' ;;
     compare) options='--output --json --quiet --scenario --jobs --color --help' ;;
     validate) options='--json --quiet --set --color --help' ;;
     show) options='--quiet --set --scenario --time-step-ms --svg --color --help' ;;

@@ -239,6 +239,11 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_chart(const CzReportRun *run,
                                                     const CzChartOptions *options, FILE *stream,
                                                     CzError *error);
 
+/* One figure with the curves of all points of a sweep as an SVG document: "fd", "force" or
+ * "velocity". Statuses: CZ_STATUS_INPUT for another name, CZ_STATUS_NO_MEMORY. */
+CZ_MUST_CHECK CZ_API CzStatus cz_report_write_sweep_chart(const CzSweep *sweep, const char *what,
+                                                          FILE *stream, CzError *error);
+
 /* The two ends of the colliding interface from the side, to scale, as an SVG document: heights,
  * gaps, and the strokes beside the available length. Statuses: CZ_STATUS_INPUT,
  * CZ_STATUS_NO_MEMORY. */

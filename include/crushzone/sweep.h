@@ -69,6 +69,19 @@ typedef struct CzUnreached {
                        does not run the train */
 } CzUnreached;
 
+enum { CZ_MOST_SWEPT_CURVES = 12 };
+
+/* Histories of a point in the scenario of the curves, in the units of the channels. Missing ones
+ * are NULL, such as those of a run that failed. */
+typedef struct CzSweepCurve {
+    int point;
+    int n;
+    double *time;    /* [ms] (n) */
+    double *force;   /* of the colliding interface [kN] (n) */
+    double *closure; /* of the colliding interface, NaN where its cars have parted [mm] (n) */
+    double *speed;   /* of the car behind it [m/s] (n) */
+} CzSweepCurve;
+
 /* Open result, owns its memory. */
 typedef struct CzSweep {
     int n_axis;
@@ -86,7 +99,12 @@ typedef struct CzSweep {
     bool is_interrupted;
     int n_unreached;
     CzUnreached *unreached; /* axis by axis, scenarios in the order of the file (n_unreached) */
-    CzProblem *problem;     /* as written, for titles and warnings */
+    int n_curve;            /* 0 when none were asked for, and of a shard or an interrupted sweep */
+    CzSweepCurve *curve;    /* of all completed points, or of CZ_MOST_SWEPT_CURVES of them at equal
+                               distances, with both ends (n_curve) */
+    char
+        curve_scenario[CZ_NAME_ROOM]; /* the one that was asked for, else that of the worst check */
+    CzProblem *problem;               /* as written, for titles and warnings */
     double wall_s;
 } CzSweep;
 
@@ -104,8 +122,9 @@ typedef struct CzSweepOptions {
     int n_check;
     const char *const *check; /* names of checks that points are judged by; all when 0 (n_check) */
     const char *scenario;     /* this scenario or family only; NULL for all */
-    int shard, n_shard;       /* only these points: the shard-th of n_shard equal runs of points */
-    int n_job;                /* threads; 0: one per processor */
+    bool curves;        /* run points once more, in one scenario, and keep histories for figures */
+    int shard, n_shard; /* only these points: the shard-th of n_shard equal runs of points */
+    int n_job;          /* threads; 0: one per processor */
     const CzExecutor *executor; /* where its tasks run; NULL: in n_job threads */
     const char *text;           /* text that is read in place of the file; NULL for the file */
     size_t n_text;              /* [byte] */

@@ -316,10 +316,10 @@ static CzStatus check_operands(const CzArguments *arguments, CzError *error) {
         if (strchr(arguments->set[i], '=') == NULL || arguments->set[i][0] == '=')
             return cz_fail(error, CZ_STATUS_INPUT, "'--set %.100s' is not of the form PATH=VALUE",
                            arguments->set[i]);
-    if (arguments->command == CZ_COMMAND_SWEEP &&
-        (arguments->n_vary < 1 || arguments->n_vary > CZ_MOST_AXES))
+    const bool lacks_vary = arguments->command == CZ_COMMAND_SWEEP && arguments->n_vary < 1;
+    if (lacks_vary || arguments->n_vary > CZ_MOST_AXES)
         return cz_fail(error, CZ_STATUS_INPUT,
-                       "'crushzone sweep' needs --vary PATH=A:B:N once or twice");
+                       "'crushzone %s' needs --vary PATH=A:B:N once or twice", info->name);
     if (arguments->text[CZ_OPTION_SHARD] != NULL && arguments->text[CZ_OPTION_OUTPUT] == NULL)
         return cz_fail(error, CZ_STATUS_INPUT,
                        "--shard needs -o DIR, the folder that 'crushzone merge' reads");

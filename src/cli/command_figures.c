@@ -98,9 +98,76 @@ static CzStatus write_chart(const void *data, FILE *stream, CzError *error) {
     return cz_report_write_chart(&result->run, &options, stream, error);
 }
 
+/* ---- plot --vary: curves of several points over one another ---- */
+
+typedef struct Varied {
+    const CzSweep *sweep;
+    const char *what;
+} Varied;
+
+static CzStatus write_varied(const void *data, FILE *stream, CzError *error) {
+    const Varied *varied = data;
+    return cz_report_write_sweep_chart(varied->sweep, varied->what, stream, error);
+}
+
+/* Options that a figure of several points does not take. */
+static int refuse_with_vary(const CzArguments *arguments) {
+    static const CzOption refused[] = {CZ_OPTION_AT, CZ_OPTION_MEASURED, CZ_OPTION_COLUMN};
+    CzError error;
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++)
+        if (arguments->text[refused[i]] != NULL) {
+            cz_fail(&error, CZ_STATUS_INPUT, "--%s is not for a figure with --vary",
+                    cz_options[refused[i]].name);
+            return cz_tell_error(arguments, &error);
+        }
+    return 0;
+}
+
+/* The first scenario, or the one that was asked for, is run at every point. */
+static int plot_points(CzSession *session, void *data) {
+    const CzArguments *arguments = session->arguments;
+    const CzProblemOptions problem_options = cz_session_problem_options(arguments);
+    const char *path = arguments->text[CZ_OPTION_SVG], *what = arguments->text[CZ_OPTION_WHAT];
+    CzSweepOptions options = cz_sweep_options_default();
+    CzSweep *sweep = NULL;
+    CzError error = {0};
+    options.n_axis = arguments->n_vary;
+    options.axis = data;
+    options.scenario = arguments->text[CZ_OPTION_SCENARIO];
+    if (options.scenario == NULL)
+        options.scenario = cz_problem_scenario_name(session->problem, 0);
+    options.curves = true;
+    options.n_job = arguments->n_job;
+    options.text = session->text;
+    options.n_text = session->n_text;
+    int code = cz_result_check(arguments, session->problem, path);
+    if (code != 0)
+        return code;
+    if (cz_sweep(session->file, &problem_options, &options, &sweep, &error) != CZ_OK)
+        return cz_tell_error(arguments, &error);
+    const Varied varied = {sweep, what != NULL ? what : cz_chart_options_default().what};
+    code = cz_result_write(arguments, path != NULL ? path : "-", write_varied, &varied);
+    cz_sweep_free(sweep);
+    return code;
+}
+
+static int plot_varied(const CzArguments *arguments) {
+    CzSweepAxis axis[CZ_MOST_AXES];
+    CzError error = {0};
+    const int code = refuse_with_vary(arguments);
+    if (code != 0)
+        return code;
+    for (int k = 0; k < arguments->n_vary; k++)
+        if (cz_sweep_axis_parse(arguments->vary[k], &axis[k], &error) != CZ_OK)
+            return cz_tell_error(arguments, &error);
+    return cz_session_study(arguments, plot_points, axis);
+}
+
 int cz_command_plot(const CzArguments *arguments) {
     const char *path = arguments->text[CZ_OPTION_SVG];
     CzResult result;
+    if (arguments->n_vary > 0)
+        return plot_varied(arguments);
     restore(arguments);
     int code = cz_result_begin(&result, arguments, arguments->operand[0], path);
     if (code == 0)

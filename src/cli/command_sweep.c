@@ -86,6 +86,7 @@ static int sweep_file(CzSession *session, void *data) {
     options.n_check = arguments->n_check;
     options.check = arguments->check;
     options.scenario = arguments->text[CZ_OPTION_SCENARIO];
+    options.curves = arguments->text[CZ_OPTION_OUTPUT] != NULL;
     options.shard = arguments->shard;
     options.n_shard = arguments->n_shard;
     options.recall = asked->shards != NULL ? cz_shards_fill_sweep : NULL;

@@ -41,6 +41,7 @@ set(CZ_SOURCES_evaluate
     study.c
     sweep.c
     sweep_axis.c
+    sweep_curves.c
     sweep_reach.c
     tasks.c
     variant.c

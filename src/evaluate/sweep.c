@@ -15,6 +15,7 @@
 #include "base/number.h"
 #include "base/text.h"
 #include "evaluate/compose.h"
+#include "evaluate/sweep_curves.h"
 #include "evaluate/sweep_reach.h"
 #include "evaluate/tasks.h"
 #include "text/units.h"
@@ -58,6 +59,11 @@ static CzStatus read_problem(const Sweeping *sweeping, const CzSweepPoint *point
                               : cz_problem_read(sweeping->file, &with, problem, error);
     free(set);
     return status;
+}
+
+static CzStatus read_point(const void *data, const CzSweepPoint *point, CzProblem **problem,
+                           CzError *error) {
+    return read_problem(data, point, problem, error);
 }
 
 /* Values of the metrics over all scenarios. */
@@ -399,6 +405,8 @@ CzStatus cz_sweep(const char *file, const CzProblemOptions *problem_options,
     cz_study_end(&sweeping.study);
     if (status == CZ_OK)
         status = conclude(&sweeping, error);
+    if (status == CZ_OK && options->curves && !is_stopped(options) && options->n_shard == 1)
+        status = cz_sweep_record(*sweep, options, read_point, &sweeping, error);
     (*sweep)->wall_s = cz_clock() - started;
     if (status == CZ_OK)
         return CZ_OK;
@@ -411,6 +419,7 @@ void cz_sweep_free(CzSweep *sweep) {
     if (sweep == NULL)
         return;
     cz_problem_free(sweep->problem);
+    cz_sweep_free_curves(sweep);
     free(sweep->unreached);
     free(sweep->point);
     free(sweep);

@@ -5,6 +5,7 @@
 #include "report/figure.h"
 #include "report/page.h"
 #include "report/plot.h"
+#include "report/sweep_curves.h"
 #include "report/verdict_words.h"
 
 #include <ctype.h>
@@ -164,7 +165,9 @@ CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error)
         CZ_TRY(write_curves(&markup, sweep, error));
     else
         write_map(&markup, sweep);
-    cz_markup_write(&markup, "</div></section>\n<section id='points'>\n<h2>Points</h2>\n");
+    cz_markup_write(&markup, "</div></section>\n");
+    cz_sweep_write_curves(sweep, &markup);
+    cz_markup_write(&markup, "<section id='points'>\n<h2>Points</h2>\n");
     if (sweep->n_axis > 1)
         cz_markup_write(&markup, "<details><summary>Every point of the map</summary>");
     cz_sweep_begin_points(&table, sweep, true);

@@ -67,6 +67,7 @@ set(CZ_SOURCES_report
     shard.c
     shards.c
     single_file.c
+    sweep_curves.c
     sweep_table.c
     table.c
     table_page.c

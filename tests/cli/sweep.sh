@@ -19,6 +19,15 @@ listed() { # in rising order, in one axis and in two, with the values in every o
         exits 0 "$C" sweep "$cars" --vary trains.A.speed_km_h=8,25 --vary trains.B.height_offset_mm=-40,0,40 && says out.txt 'across: trains.B.height_offset_mm, -40, 0, 40'
 }
 check "--vary takes lists of values" listed
+overlaid() { # in the page and as single figures; 12 points of more
+    exits 0 "$C" sweep "$cars" --vary trains.A.speed_km_h=10,25 --vary trains.B.speed_km_h=-20,0 -o overlaid && [ "$(grep -c '>A.speed_km_h 10, B.speed_km_h -20</text>' overlaid/report.html)" -ge 1 ] && says overlaid/report.html '<h2>Curves, scenario collision</h2>' &&
+        [ "$(grep -o 'Force over closure of the colliding interface, collision\|Force of the colliding interface, collision\|Speed of the car behind the colliding interface, collision' overlaid/report.html | sort -u | grep -c .)" = 3 ] || return 1
+    "$C" new -q -o two.yaml && for what in fd force velocity; do
+        exits 0 "$C" plot two.yaml --vary trains.A.speed_km_h=8,15,25 --what $what --svg $what.svg && [ "$(grep -o '>A.speed_km_h [0-9]*</text>' $what.svg | grep -c .)" = 3 ] || return 1
+    done
+    exits 2 "$C" plot two.yaml --vary trains.A.speed_km_h=8,15 --what lift && says err.txt 'fd, force and velocity' && exits 2 "$C" plot two.yaml --vary trains.A.speed_km_h=8,15 --at A1-A2 && says err.txt '--at is not for a figure with --vary' && exits 2 "$C" plot two.yaml --vary a=1,2 --vary b=1,2 --vary c=1,2
+}
+check "curves of all points are over one another, in the page and in one figure" overlaid
 unreached() {
     metro=$SOURCE/problems/metro-6-car.yaml
     exits 0 "$C" sweep "$metro" --vary trains.A.speed_km_h=7,8 --scenario 8-km-h -o unreached && says out.txt 'warning: trains.A.speed_km_h does not reach scenario 8-km-h, which sets speed_km_h itself.' && json unreached/sweep.json unreached.0.by speed_km_h && says unreached/report.html 'does not reach scenario 8-km-h'

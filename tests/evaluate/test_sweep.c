@@ -215,6 +215,41 @@ static void a_list_has_the_points_of_its_values(void **state) {
     cz_sweep_free(sweep);
 }
 
+static void curves_are_those_of_the_points(void **state) {
+    (void)state;
+    CzSweepOptions options = options_of(&speed, 1);
+    options.curves = true;
+    CzSweep *sweep = sweep_with(&options);
+    assert_int_equal(sweep->n_curve, 4);
+    assert_string_equal(sweep->curve_scenario, "collision");
+    for (int i = 0; i < 4; i++) {
+        const CzSweepCurve *curve = &sweep->curve[i];
+        double peak = 0;
+        for (int k = 0; k < curve->n; k++)
+            peak = fmax(peak, curve->force[k]);
+        assert_int_equal(curve->point, i);
+        assert_near(curve->speed[0], sweep->point[i].value[0] / 3.6, ROUNDING_OF_A_FORMULA, 0);
+        /* Samples are 1 ms apart; the only interface has the peak force of the point. */
+        assert_near(peak, sweep->point[i].metric[0], 0.2, 0);
+        assert_near(curve->closure[0], 0, 0, 1e-9); /* the first contact, in mm */
+    }
+    cz_sweep_free(sweep);
+}
+
+static void of_many_points_some_have_curves(void **state) {
+    (void)state;
+    const CzSweepAxis axis = {.path = "trains.A.speed_km_h", .from = 10, .to = 24, .n = 15};
+    CzSweepOptions options = options_of(&axis, 1);
+    options.curves = true;
+    CzSweep *sweep = sweep_with(&options);
+    assert_int_equal(sweep->n_curve, CZ_MOST_SWEPT_CURVES);
+    assert_int_equal(sweep->curve[0].point, 0);
+    assert_int_equal(sweep->curve[CZ_MOST_SWEPT_CURVES - 1].point, 14);
+    for (int i = 1; i < sweep->n_curve; i++)
+        assert_true(sweep->curve[i].point > sweep->curve[i - 1].point);
+    cz_sweep_free(sweep);
+}
+
 /* Two trains with a third beside them, and scenarios that set values themselves. */
 static const char scenarios[] =
     "extends: two-cars-25kmh.yaml\n"
@@ -277,6 +312,8 @@ int main(void) {
         cmocka_unit_test(an_interrupted_sweep_has_points_that_were_not_run),
         cmocka_unit_test(axes_are_read_from_text),
         cmocka_unit_test(a_list_has_the_points_of_its_values),
+        cmocka_unit_test(curves_are_those_of_the_points),
+        cmocka_unit_test(of_many_points_some_have_curves),
         cmocka_unit_test(a_scenario_that_sets_the_value_itself_is_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -48,7 +48,7 @@ static bool read_checks(Expansion *expansion) {
     cz_bind_record(binder, &cz_records[CZ_RECORD_CzChecks], entry->value,
                    cz_entry_trail(entry, &cz_no_trail), &expansion->checks);
     expansion->named = cz_places_find(&expansion->places, &expansion->checks.profile);
-    return expansion->checks.profile != NULL;
+    return expansion->checks.profile != NULL && !expansion->arena->out_of_memory;
 }
 
 /* Where a value of `checks` is written. */
@@ -104,7 +104,8 @@ static bool read_profile(Expansion *expansion) {
         return false;
     problem->whole_profile = expansion->file.whole;
     return cz_profile_in_category(problem, &expansion->file, expansion->checks.category,
-                                  &problem->profile);
+                                  &problem->profile) &&
+           !reader->arena.out_of_memory;
 }
 
 /* ---- limits ---- */

@@ -1,14 +1,15 @@
 /* Common data of all steps from files to records.
  *
  *   load      files -> one tree: `extends` merged, parts of catalogues gathered
+ *   profile   partners and scenarios of the profile added
  *   settings  `set:` and --set applied to the tree
  *   trains    `copy`, `repeat`, `reversed` written out
  *   families  `sweep` of a scenario written out
  *   bind      tree -> typed records, with a place for every value; `use` is replaced by parts
  *   rules     conditions between values
  *
- * The first four are in this folder, the others in src/problem. All of them continue after a
- * mistake, so that one pass reports every mistake. Without memory they return NULL or end early;
+ * Profile, bind and rules are in src/problem, the others in this folder. All of them continue after
+ * a mistake, so that one pass reports every mistake. Without memory they return NULL or end early;
  * the arena records that a request failed.
  */
 #ifndef CZ_TREE_READER_H

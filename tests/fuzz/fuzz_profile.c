@@ -1,4 +1,4 @@
-/* Any bytes as a profile of limits, with and without a category. */
+/* Any bytes as a profile, with and without what a problem may say about it. */
 #include "fuzz/fuzz.h"
 
 #include <string.h>
@@ -27,6 +27,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n_byte) {
     mkdir("profiles", 0777);
     fuzz_write_file("profiles/input.yaml", data, n_byte);
     read_with("{profile: input}");
-    read_with("{profile: input, category: C-I}");
+    read_with("{profile: input, category: C-I, line_speed_km_h: 160}");
+    read_with("{profile: input, category: C-II, line_speed_km_h: 40, scenarios: "
+              "[identical-train, obstacle-15t], override: {survival space: {max: 40}}}");
     return 0;
 }

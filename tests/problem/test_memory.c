@@ -61,6 +61,7 @@ static void reading_a_good_file_reports_every_lack_of_memory(void **state) {
     assert_in_range(count_failures(GOOD_FOLDER "/overlay.yaml", CZ_OK), 5, 4999);
     assert_in_range(count_failures(GOOD_FOLDER "/curves.yaml", CZ_OK), 5, 4999);
     assert_in_range(count_failures(GOOD_FOLDER "/rigid.yaml", CZ_OK), 5, 4999);
+    assert_in_range(count_failures(GOOD_FOLDER "/single.yaml", CZ_OK), 5, 4999);
 }
 
 static void reading_a_bad_file_reports_every_lack_of_memory(void **state) {

@@ -52,12 +52,13 @@ const CzHelpEntry cz_verdict_rules[] = {
 
 const char cz_verdict_remark[] =
     "The same rule applies to a scenario, a problem, a point of a sweep, an optimum and compared "
-    "runs, in tables, JSON, reports and exit codes: check, sample, run --strict and sweep --strict "
-    "end with 0 for pass and PROVISIONAL only. JSON has PROVISIONAL as \"verdict\": \"pass\" with "
-    "\"provisional\": true. Requirements of a profile that this program cannot compute are listed "
-    "as "
-    "not covered; they count in no verdict. Design rules are limits of this program "
-    "and not provisional. The constraints of a search are the checks that can be made, with the "
+    "runs, in tables, JSON, JUnit, reports and exit codes: check, sample, run --strict and sweep "
+    "--strict end with 0 for pass and PROVISIONAL only. JSON has PROVISIONAL as \"verdict\": "
+    "\"pass\" with \"provisional\": true. Requirements of a profile that this program cannot check "
+    "are listed as not covered and never counted as passed: a pass is then one by screening and "
+    "gives their number, and JSON has \"screening\": true. A yes or no has no margin. Design rules "
+    "are limits of this program and not provisional. The constraints of a search are the checks "
+    "that can be made, with the "
     "required margin, and the targets: FEASIBLE means that they are satisfied; the verdict covers "
     "all checks.";
 

@@ -33,9 +33,12 @@ static CzSeries *put(Sheet *sheet, CzSeries series) {
     return added;
 }
 
-/* Name of a curve for the cursor of the page, stored with the figure; NULL without memory. */
+/* Name of a curve for the cursor of the page, stored with the figure; NULL without memory, and for
+ * a run that the cursor does not show. */
 static const char *channel_name(Sheet *sheet, CzDrawn drawn, int place) {
     char name[CZ_CHANNEL_ROOM];
+    if (sheet->page->is_beside)
+        return NULL;
     cz_drawn_name(sheet->page->summary, drawn, place, name);
     return cz_arena_copy_text(&sheet->arena, name, strlen(name));
 }
@@ -352,7 +355,8 @@ static void write_curves(const CzPage *page, CzChart chart, int index, CzMarkup 
                    .plot = {.title = title,
                             .x_label = cz_drawn_label(info->x, label[0]),
                             .y_label = cz_drawn_label(info->y, label[1]),
-                            .is_time = info->x == CZ_DRAWN_TIME}};
+                            .is_time = info->x == CZ_DRAWN_TIME,
+                            .is_still = page->is_beside}};
     sheet.series = cz_arena_allocate(&sheet.arena, (size_t)room, sizeof *sheet.series);
     sheet.room = sheet.series != NULL ? room : 0;
     collect(&sheet, chart, index);

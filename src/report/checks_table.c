@@ -118,10 +118,13 @@ static void put_verdict(CzReportTable *table, const CzCheckResult *check) {
                                                         : cz_verdict_style(check->verdict));
 }
 
-static void put_check(CzReportTable *table, const CzCheckResult *check,
-                      const CzCheckResult *before) {
+/* `number` is that of the check on a page; 0 for none. */
+static void put_check(CzReportTable *table, const CzCheckResult *check, const CzCheckResult *before,
+                      int number) {
     char text[CZ_CHECK_ROOM] = "";
     cz_table_put(table, check->name);
+    if (number > 0)
+        cz_table_anchor(table, "check", number);
     put_verdict(table, check);
     cz_table_put(table, check->where);
     cz_table_put(table, check->scenario);
@@ -180,7 +183,7 @@ static void put_scenarios_without_run(CzReportTable *table, const CzEvaluation *
                                    .value = NAN,
                                    .margin = NAN,
                                    .when = {NAN, NAN}};
-        put_check(table, &all, NULL);
+        put_check(table, &all, NULL, 0);
     }
 }
 
@@ -208,13 +211,14 @@ void cz_checks_write_rows(CzMarkup *markup, const CzEvaluation *evaluation,
                           const CzEvaluation *before, bool rest) {
     CzReportTable table;
     begin(&table, true, true, before != NULL);
-    table.class_name = "checks";
+    table.class_name = "checks cards";
     for (int pass = 0; pass < 2; pass++) /* failures first */
         for (int i = 0; i < evaluation->n_check; i++) {
             const bool fails = evaluation->check[i].verdict == CZ_VERDICT_FAIL;
             if (!evaluation->check[i].has_no_run && cz_checks_is_shown(evaluation, i) != rest &&
                 fails == (pass == 0))
-                put_check(&table, &evaluation->check[i], before != NULL ? &before->check[i] : NULL);
+                put_check(&table, &evaluation->check[i], before != NULL ? &before->check[i] : NULL,
+                          i + 1);
         }
     if (!rest)
         put_scenarios_without_run(&table, evaluation);
@@ -274,7 +278,7 @@ void cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *b
     for (int i = 0; i < evaluation->n_check; i++) {
         const CzCheckResult *check = &evaluation->check[i];
         if (!check->has_no_run && (!several || cz_checks_is_shown(evaluation, i)))
-            put_check(&table, check, with_before ? &before->check[i] : NULL);
+            put_check(&table, check, with_before ? &before->check[i] : NULL, 0);
     }
     cz_table_write_text(&table, terminal);
     say_scenarios_without_run(evaluation, terminal);

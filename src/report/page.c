@@ -13,12 +13,13 @@ void cz_page_write_parts(CzPage *page) {
     cz_page_write_data(page);
 }
 
-static void write_run(CzPage *page, bool is_top) {
+static void write_run(CzPage *page) {
     char title[CZ_SENTENCE_ROOM];
     snprintf(title, sizeof title, "%s, %s", cz_problem_title(page->problem),
              page->summary->scenario);
     cz_page_write_head(&page->markup, title);
-    cz_page_write_verdict(page, is_top);
+    cz_page_write_verdict(page);
+    cz_page_write_deciding(page);
     cz_page_write_parts(page);
     cz_page_write_foot(&page->markup);
 }
@@ -28,14 +29,18 @@ CzStatus cz_page_write_run(const CzReport *report, int scenario, bool is_top, FI
     CzPage page = {.problem = report->problem,
                    .evaluation = report->evaluation,
                    .options = cz_report_options_of(report),
-                   .scenario = scenario};
+                   .scenario = scenario,
+                   .is_top = is_top};
     CzStatus status = cz_page_begin(&page, error);
     if (status == CZ_OK)
         status = cz_page_collect_parts(&page, error);
+    if (status == CZ_OK)
+        status = cz_page_collect_deciding(&page, error);
     if (status == CZ_OK) {
-        write_run(&page, is_top);
+        write_run(&page);
         status = cz_page_finish(&page, stream, error);
     }
+    cz_page_free_deciding(&page);
     cz_page_free(&page);
     return status;
 }

@@ -39,6 +39,8 @@ typedef struct CzPage {
     const char *label; /* of the page's own run where there are others; NULL otherwise */
     int n_other;
     const CzPageOther *other; /* (n_other) */
+    bool is_top;    /* in a folder that has the reports of the scenarios in folders below */
+    bool is_beside; /* its figures are on the page of another run, without the cursor */
     int n_measured;
     const struct CzChartCurve *measured; /* curves laid over figures (n_measured) */
 
@@ -53,6 +55,10 @@ typedef struct CzPage {
     CzInputCurve *input;       /* by interface (n_interface) */
     double flange_height;      /* lowest of the full vehicles [m]; infinite without one */
     const CzVehicle *vehicles; /* the problem's array; model->car[].vehicle is an index into it */
+
+    /* Collected by cz_page_collect_deciding, freed by cz_page_free_deciding. */
+    struct CzMatrix *matrix;     /* criteria and scenarios */
+    struct CzDeciding *deciding; /* figures that decide; NULL for none */
 
     /* Collected by cz_page_collect_parts. */
     CzInputsText inputs;
@@ -72,6 +78,12 @@ CZ_MUST_CHECK CzStatus cz_page_begin(CzPage *page, CzError *error);
 CZ_MUST_CHECK CzStatus cz_page_collect_parts(CzPage *page, CzError *error);
 void cz_page_free(CzPage *page);
 
+/* Collects the matrix and, at the top of several scenarios, the figures that decide its rows
+ * (page_deciding.c). Statuses: CZ_STATUS_INPUT, CZ_STATUS_NO_MEMORY; free them in any case, before
+ * the page. */
+CZ_MUST_CHECK CzStatus cz_page_collect_deciding(CzPage *page, CzError *error);
+void cz_page_free_deciding(CzPage *page);
+
 /* The deciding scenario: one that failed, else the one with the worst check, else the first that
  * ran; -1 when none did. */
 int cz_page_deciding(const CzEvaluation *evaluation);
@@ -81,9 +93,9 @@ static inline const double *cz_page_values(const CzPage *page, CzDrawn drawn, in
     return cz_drawn_values(page->run, &page->made, drawn, place);
 }
 
-/* Writes the report of a run: the checks of all scenarios and the figures of one. With is_top it
- * links the reports of the other scenarios in their folders. Statuses: CZ_STATUS_INPUT,
- * CZ_STATUS_NO_MEMORY. */
+/* Writes the report of a run: the matrix and the checks of all scenarios and the figures of one.
+ * With is_top it links the reports of the other scenarios in their folders. Statuses:
+ * CZ_STATUS_INPUT, CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_page_write_run(const CzReport *report, int scenario, bool is_top,
                                          FILE *stream, CzError *error);
 
@@ -110,8 +122,15 @@ void cz_page_write_contents(CzPage *page, bool of_search);
 
 /* ---- parts, in the order of the page ---- */
 
+/* page_matrix.c: what the report is filed under; criteria by scenarios, and the figures that decide
+ * them, where there are several scenarios. */
+void cz_page_write_document(CzMarkup *markup, const CzProblem *problem);
+bool cz_page_has_matrix(const CzPage *page);
+void cz_page_write_matrix(CzPage *page);
+void cz_page_write_deciding(CzPage *page);
+
 /* page_checks.c, page_trains.c, page_figures.c, page_scene.c, page_inputs.c, page_data.c */
-void cz_page_write_verdict(CzPage *page, bool is_top);
+void cz_page_write_verdict(CzPage *page);
 void cz_page_write_trains(CzPage *page);
 void cz_page_write_figures(CzPage *page);
 void cz_page_write_budget(CzPage *page); /* page_budget.c; nothing where no car has running gear */
@@ -126,6 +145,9 @@ void cz_page_event_words(CzEventKind kind, char words[48]);
 /* The table of checks, with the values of a design before unless that is NULL. */
 void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
                           const CzEvaluation *before);
+/* Address of the report of a scenario, from this page. */
+enum { CZ_ADDRESS_ROOM = 512 };
+void cz_page_address(const CzPage *page, const char *scenario, char address[CZ_ADDRESS_ROOM]);
 /* A scenario's name as the name of a folder. */
 void cz_page_folder_name(const char *scenario, char name[CZ_NAME_ROOM]);
 

@@ -37,45 +37,22 @@ void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
     cz_markup_write(markup, "</details>\n");
 }
 
-void cz_page_folder_name(const char *scenario, char name[CZ_NAME_ROOM]) {
-    snprintf(name, CZ_NAME_ROOM, "%s", scenario);
-    for (char *c = name; *c != '\0'; c++)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f || strchr("/\\:*?\"<>|", *c) != NULL)
-            *c = '_';
-    if (name[0] == '.')
-        name[0] = '_';
-}
-
-/* The address of a scenario's report; characters other than letters, digits and -._~ as %XX. */
-static void format_address(const char *scenario, size_t room, char *text) {
-    char folder[CZ_NAME_ROOM];
-    size_t used = 0;
-    cz_page_folder_name(scenario, folder);
-    for (const char *c = folder; *c != '\0' && used + 4 < room; c++) {
-        const unsigned char byte = (unsigned char)*c;
-        const bool plain = (byte >= '0' && byte <= '9') || (byte >= 'a' && byte <= 'z') ||
-                           (byte >= 'A' && byte <= 'Z') || strchr("-._~", byte) != NULL;
-        used += (size_t)snprintf(text + used, room - used, plain ? "%c" : "%%%02X", byte);
-    }
-    snprintf(text + used, room - used, "/report.html");
-}
-
 /* Links to the reports of the other scenarios, in their folders. */
 static void write_others(CzPage *page) {
     const char *between = "";
     for (int i = 0; i < page->evaluation->n_run; i++) {
         const CzRunSummary *run = cz_kept_run(page->evaluation, i);
-        char address[512];
+        char address[CZ_ADDRESS_ROOM];
         if (run == NULL || i == page->scenario)
             continue;
-        format_address(run->scenario, sizeof address, address);
+        cz_page_address(page, run->scenario, address);
         cz_markup_write(&page->markup, "%s<a href='%s'>%s</a>", between, address, run->scenario);
         between = ", ";
     }
 }
 
 /* The scenario of the figures, and links to the reports of the others; many links are folded. */
-static void write_scenarios(CzPage *page, bool is_top) {
+static void write_scenarios(CzPage *page) {
     CzMarkup *markup = &page->markup;
     const int n_other = cz_n_kept_run(page->evaluation) - 1;
     if (n_other < 1)
@@ -83,14 +60,16 @@ static void write_scenarios(CzPage *page, bool is_top) {
     cz_markup_write(markup,
                     "<p>The checks are those of all scenarios, the figures those of "
                     "<strong>%s</strong>%s.",
-                    page->summary->scenario, is_top ? ", which has the smallest margin" : "");
-    if (is_top && n_other <= MOST_LINKS) {
+                    page->summary->scenario, page->is_top ? ", which has the smallest margin" : "");
+    if (!page->is_top)
+        cz_markup_write(markup, " <a href='../report.html'>Report of all scenarios</a>.");
+    if (n_other <= MOST_LINKS) {
         cz_markup_write(markup, " Reports of the others: ");
         write_others(page);
         cz_markup_write(markup, ".");
     }
     cz_markup_write(markup, "</p>\n");
-    if (!is_top || n_other <= MOST_LINKS)
+    if (n_other <= MOST_LINKS)
         return;
     cz_markup_write(markup, "<details><summary>Reports of the other %d</summary>", n_other);
     write_others(page);
@@ -153,7 +132,7 @@ static void write_count(CzMarkup *markup, const CzEvaluation *evaluation) {
     cz_markup_write(markup, ".</p>");
 }
 
-void cz_page_write_verdict(CzPage *page, bool is_top) {
+void cz_page_write_verdict(CzPage *page) {
     CzMarkup *markup = &page->markup;
     const CzEvaluation *evaluation = page->evaluation;
     char remark[CZ_SCREENING_ROOM];
@@ -162,10 +141,12 @@ void cz_page_write_verdict(CzPage *page, bool is_top) {
                     cz_verdict_title(evaluation->verdict),
                     cz_screening_remark(evaluation->verdict, evaluation->n_not_covered, remark));
     write_count(markup, evaluation);
+    cz_page_write_document(markup, page->problem);
     cz_markup_write(markup, "</header>\n");
     cz_page_write_contents(page, false);
+    cz_page_write_matrix(page);
     cz_markup_write(markup, "<section id='checks'>\n<h2>Checks</h2>\n");
-    write_scenarios(page, is_top);
+    write_scenarios(page);
     write_caution(page);
     cz_page_write_checks(markup, evaluation, NULL);
     cz_markup_write(markup, "</section>\n");

@@ -13,6 +13,7 @@ static void write_checks(CzMarkup *markup, const CzReport *report) {
     int n_same;
     cz_markup_write(markup, "<section id='checks'>\n<h2>Checks that differ</h2>\n");
     cz_compared_begin_checks(&table, report, &n_same);
+    table.class_name = "cards";
     cz_table_write_page(&table, markup);
     if (n_same > 0)
         cz_markup_write(markup, "<p>%d checks are the same.</p>", n_same);

@@ -2,6 +2,7 @@
 #include "report/page.h"
 
 #include "report/assets.h"
+#include "report/page_deciding.h"
 
 void cz_page_write_head(CzMarkup *markup, const char *title) {
     char policy[400]; /* nothing may be loaded or sent; script and style are allowed by their hashes
@@ -27,15 +28,25 @@ void cz_page_write_foot(CzMarkup *markup) {
 }
 
 void cz_page_write_contents(CzPage *page, bool of_search) {
-    enum { ALWAYS = 0, OF_FIGURES = 1, OF_FULL_CARS = 2, OF_BUDGET = 4, OF_SEARCH = 8 };
+    enum {
+        ALWAYS = 0,
+        OF_FIGURES = 1,
+        OF_FULL_CARS = 2,
+        OF_BUDGET = 4,
+        OF_SEARCH = 8,
+        OF_SEVERAL = 16,
+        OF_TOP = 32
+    };
     static const struct {
         const char *id, *name;
         int where; /* required results */
-    } parts[] = {{"checks", "checks", ALWAYS},
+    } parts[] = {{"matrix", "criteria and scenarios", OF_SEVERAL},
+                 {"checks", "checks", ALWAYS},
                  {"variables", "variables", OF_SEARCH},
                  {"active", "active constraints", OF_SEARCH},
                  {"verification", "verification", OF_SEARCH},
                  {"values", "new values", OF_SEARCH},
+                 {"deciding", "figures that decide", OF_TOP},
                  {"trains", "trains", ALWAYS},
                  {"loops", "force over closure", OF_FIGURES},
                  {"energy", "energy", OF_FIGURES},
@@ -46,7 +57,9 @@ void cz_page_write_contents(CzPage *page, bool of_search) {
                  {"events", "events", ALWAYS},
                  {"inputs", "inputs", ALWAYS}};
     int there = (page->n_sample > 1 ? OF_FIGURES : 0) | (of_search ? OF_SEARCH : 0) |
-                (page->summary->budget != NULL ? OF_BUDGET : 0);
+                (page->summary->budget != NULL ? OF_BUDGET : 0) |
+                (cz_page_has_matrix(page) ? OF_SEVERAL : 0) |
+                (page->deciding != NULL && page->deciding->n_figure > 0 ? OF_TOP : 0);
     for (int car = 0; car < page->model->n_car; car++)
         there |= page->model->car[car].model == CZ_MODEL_FULL ? OF_FULL_CARS : 0;
     cz_markup_write(&page->markup, "<nav>");

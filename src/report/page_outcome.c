@@ -9,6 +9,7 @@
 #include "report/options.h"
 #include "report/outcome_table.h"
 #include "report/overlay.h"
+#include "report/page_deciding.h"
 #include "report/plot.h"
 #include "report/robust_table.h"
 #include "report/runs.h"
@@ -63,6 +64,7 @@ static void write_banner(CzMarkup *markup, const CzReport *report) {
                         "(" CZ_FIGURE_MARK_MEANS ").</p>",
                         outcome->best_evaluation.beyond_validity ? "best design"
                                                                  : "design before the search");
+    cz_page_write_document(markup, report->problem);
     cz_markup_write(markup, "</header>\n");
 }
 
@@ -173,6 +175,7 @@ static void write_active(CzMarkup *markup, const CzReport *report) {
                     "<section id='active'>\n<h2>Active constraints of the best design</h2>\n"
                     "<p>The most critical constraints; a negative margin is violated.</p>");
     cz_table_begin(&table, "constraint;" CZ_CONSTRAINT_HEADS);
+    table.class_name = "cards";
     int listed[MOST_CONSTRAINTS];
     for (int n = 0; n < MOST_CONSTRAINTS; n++) {
         listed[n] = cz_page_next_constraint(best, n, listed);
@@ -243,6 +246,7 @@ static CzStatus write_page(CzPage *page, const CzReport *report, CzError *error)
     cz_page_write_head(markup, title);
     write_banner(markup, report);
     cz_page_write_contents(page, true);
+    cz_page_write_matrix(page);
     cz_markup_write(markup, "<section id='checks'>\n<h2>Checks before and after</h2>\n");
     cz_page_write_checks(markup, &outcome->best_evaluation, &outcome->start_evaluation);
     cz_markup_write(markup, "</section>\n");
@@ -261,6 +265,7 @@ static CzStatus write_page(CzPage *page, const CzReport *report, CzError *error)
         "design%s</p>",
         page->summary->scenario,
         page->n_other > 0 ? "; force over closure and energy also show the design before." : ".");
+    cz_page_write_deciding(page);
     cz_page_write_parts(page);
     cz_page_write_foot(markup);
     return CZ_OK;
@@ -278,6 +283,7 @@ CzStatus cz_page_write_outcome(const CzReport *report, FILE *stream, CzError *er
                    .evaluation = evaluation,
                    .options = cz_report_options_of(report),
                    .scenario = scenario,
+                   .is_top = true,
                    .label = has_start ? "after, with unloading" : NULL,
                    .n_other = has_start,
                    .other = &before};
@@ -285,9 +291,12 @@ CzStatus cz_page_write_outcome(const CzReport *report, FILE *stream, CzError *er
     if (status == CZ_OK)
         status = cz_page_collect_parts(&page, error);
     if (status == CZ_OK)
+        status = cz_page_collect_deciding(&page, error);
+    if (status == CZ_OK)
         status = write_page(&page, report, error);
     if (status == CZ_OK)
         status = cz_page_finish(&page, stream, error);
+    cz_page_free_deciding(&page);
     cz_page_free(&page);
     return status;
 }

@@ -431,14 +431,16 @@ void cz_plot_write(const CzPlot *plot, CzMarkup *markup) {
     const double bottom = TOP + frame.height + BELOW_AXIS;
     char range[4][CZ_FIGURE_ROOM];
     cz_svg_open(markup, plot->title, CZ_PLOT_WIDTH, bottom + write_legend(plot, bottom, NULL));
-    cz_markup_write(markup,
-                    " preserveAspectRatio='xMidYMin' class='%s' data-box='%d %d %d %d' "
-                    "data-range='%s %s %s %s'>\n",
-                    plot->is_time ? "plot time" : "plot", (int)LEFT, (int)TOP, (int)frame.width,
-                    (int)frame.height, cz_figure_digits(range[0], 12, frame.x_min),
-                    cz_figure_digits(range[1], 12, frame.x_max),
-                    cz_figure_digits(range[2], 12, frame.y_min),
-                    cz_figure_digits(range[3], 12, frame.y_max));
+    cz_markup_write(
+        markup,
+        " preserveAspectRatio='xMidYMin' class='%s' data-box='%d %d %d %d' "
+        "data-range='%s %s %s %s'>\n",
+        plot->is_still  ? "still"
+        : plot->is_time ? "plot time"
+                        : "plot",
+        (int)LEFT, (int)TOP, (int)frame.width, (int)frame.height,
+        cz_figure_digits(range[0], 12, frame.x_min), cz_figure_digits(range[1], 12, frame.x_max),
+        cz_figure_digits(range[2], 12, frame.y_min), cz_figure_digits(range[3], 12, frame.y_max));
     write_bands(plot, &frame, markup);
     write_x_axis(plot, &frame, markup);
     write_y_axis(plot, &frame, markup);

@@ -58,6 +58,7 @@ typedef struct CzPlot {
     const CzPlotLimit *limit; /* (n_limit) */
     const CzPlotBand *band;   /* (n_band) */
     bool is_time;             /* the x axis is time, so that the page's cursor covers it */
+    bool is_still;            /* no cursor covers it */
     bool from_zero;           /* the y axis includes 0 */
     bool counts;              /* the y axis has whole numbers only */
     double height;            /* of the area between the axes; 0: as usual */

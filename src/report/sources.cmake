@@ -79,6 +79,9 @@ set(CZ_SOURCES_report
     document_lines.c
     junit.c
     matrix.c
+    page_matrix.c
+    page_address.c
+    page_deciding.c
     worth_table.c
 )
 # Databases, by SQLite where it is installed.

@@ -66,10 +66,13 @@ void cz_table_begin(CzReportTable *table, const char *heads) {
 
 static void put(CzReportTable *table, CzReportCell cell) {
     CzArena *arena = &table->arena;
-    if (!arena->out_of_memory)
-        table->cell = cz_arena_grow(arena, table->cell, table->n_cell, sizeof *table->cell);
-    if (!arena->out_of_memory)
-        table->cell[table->n_cell++] = cell;
+    CzReportCell *grown = arena->out_of_memory ? NULL
+                                               : cz_arena_grow(arena, table->cell, table->n_cell,
+                                                               sizeof *table->cell);
+    if (grown == NULL)
+        return;
+    table->cell = grown;
+    table->cell[table->n_cell++] = cell;
 }
 
 void cz_table_put_styled(CzReportTable *table, const char *text, CzStyle style) {
@@ -95,6 +98,26 @@ void cz_table_put_bar(CzReportTable *table, const CzBar *bar, double share) {
 
 void cz_table_put_range(CzReportTable *table, double start, double best) {
     put(table, (CzReportCell){.text = "", .drawing = CZ_DRAWING_RANGE, .share = {start, best}});
+}
+
+/* The last cell; NULL without memory. */
+static CzReportCell *last_cell(const CzReportTable *table) {
+    return table->arena.out_of_memory || table->n_cell == 0 ? NULL
+                                                            : &table->cell[table->n_cell - 1];
+}
+
+void cz_table_link(CzReportTable *table, const char *address) {
+    const char *link = keep(table, address);
+    if (last_cell(table) != NULL)
+        last_cell(table)->link = link;
+}
+
+void cz_table_anchor(CzReportTable *table, const char *stem, int number) {
+    char id[CZ_LABEL_ROOM];
+    snprintf(id, sizeof id, "%s-%d", stem, number);
+    const char *kept = keep(table, id);
+    if (last_cell(table) != NULL)
+        last_cell(table)->id = kept;
 }
 
 void cz_table_free(CzReportTable *table) {

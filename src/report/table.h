@@ -30,6 +30,8 @@ typedef enum CzDrawing { CZ_DRAWING_NONE, CZ_DRAWING_BAR, CZ_DRAWING_RANGE } CzD
 
 typedef struct CzReportCell {
     const char *text; /* in the arena */
+    const char *link; /* on a page: an address; NULL for none */
+    const char *id;   /* on a page: its name for links; NULL for none */
     CzStyle style;
     CzDrawing drawing;
     const CzBar *bar;
@@ -39,7 +41,8 @@ typedef struct CzReportCell {
 enum { CZ_MOST_COLUMNS = 24 };
 
 typedef struct CzReportTable {
-    const char *class_name; /* on a page; NULL for none */
+    const char *class_name; /* on a page; NULL for none. A table of class `cards` shows on a narrow
+                               page each row as a paragraph with the heads in front of its cells */
     int n_column;
     struct {
         const char *head; /* NULL: the column is left out */
@@ -66,6 +69,10 @@ void cz_table_put_format(CzReportTable *table, const char *format, ...)
  * best value of a variable are between its bounds, 0 to 1, NaN for none. */
 void cz_table_put_bar(CzReportTable *table, const CzBar *bar, double share);
 void cz_table_put_range(CzReportTable *table, double start, double best);
+
+/* Makes the last cell a link, or gives it the name "STEM-NUMBER" for links. */
+void cz_table_link(CzReportTable *table, const char *address);
+void cz_table_anchor(CzReportTable *table, const char *stem, int number);
 
 /* Frees a table that is not written. */
 void cz_table_free(CzReportTable *table);

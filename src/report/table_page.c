@@ -47,16 +47,25 @@ static void write_head(CzMarkup *markup, const char *text, bool is_number) {
     cz_markup_write(markup, "</th>");
 }
 
-static void write_cell(CzMarkup *markup, const CzReportCell *cell, bool is_number) {
+/* `head` is that of the column, in front of the cell on a narrow page; NULL for none. */
+static void write_cell(CzMarkup *markup, const CzReportCell *cell, bool is_number,
+                       const char *head) {
     static const char *const class_names[][2] = {[CZ_STYLE_PLAIN] = {NULL, "number"},
                                                  [CZ_STYLE_GOOD] = {"pass", "number pass"},
                                                  [CZ_STYLE_CAREFUL] = {"careful", "number careful"},
                                                  [CZ_STYLE_BAD] = {"fail", "number fail"},
                                                  [CZ_STYLE_SMALL] = {"small", "number small"}};
     const char *class_name = class_names[cell->style][is_number];
-    cz_markup_write(markup, class_name != NULL ? "<td class='%s'>" : "<td>", class_name);
+    cz_markup_write(markup, class_name != NULL ? "<td class='%s'" : "<td", class_name);
+    if (cell->id != NULL)
+        cz_markup_write(markup, " id='%s'", cell->id);
+    if (head != NULL && head[0] != '\0' && cell->text[0] != '\0')
+        cz_markup_write(markup, " data-head='%s'", head);
+    cz_markup_write(markup, ">");
     if (cell->drawing == CZ_DRAWING_RANGE)
         write_range(markup, cell->share);
+    else if (cell->link != NULL && cell->text[0] != '\0')
+        cz_markup_write(markup, "<a href='%s'>%s</a>", cell->link, cell->text);
     else if (cell->drawing == CZ_DRAWING_NONE)
         cz_markup_write(markup, "%s", cell->text);
     else if (isfinite(cell->share[0]))
@@ -65,6 +74,7 @@ static void write_cell(CzMarkup *markup, const CzReportCell *cell, bool is_numbe
 }
 
 void cz_table_write_page(CzReportTable *table, CzMarkup *markup) {
+    const bool is_cards = table->class_name != NULL && strstr(table->class_name, "cards") != NULL;
     markup->failed |= table->arena.out_of_memory;
     cz_markup_write(markup,
                     table->class_name != NULL ? "<div class='wide'><table class='%s'><tr>"
@@ -78,7 +88,8 @@ void cz_table_write_page(CzReportTable *table, CzMarkup *markup) {
         cz_markup_write(markup, "<tr>");
         for (int k = 0; k < table->n_column; k++)
             if (table->column[k].head != NULL)
-                write_cell(markup, &table->cell[i + k], table->column[k].is_number);
+                write_cell(markup, &table->cell[i + k], table->column[k].is_number,
+                           is_cards && k > 0 ? table->column[k].head : NULL);
         cz_markup_write(markup, "</tr>\n");
     }
     cz_markup_write(markup, "</table></div>\n");

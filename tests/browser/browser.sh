@@ -3,13 +3,15 @@
 
 folders="metro pair rigid search long"
 pages="swept map sampled compared"
+several="several"
 
 # Counts every case of report.js as skipped.
 skip_all() { # skip_all REASON
     sed -n 's/.*await check(`${\([a-z]*\)}: \([^`]*\)`.*/\1 \2/p' "$SOURCE/tests/browser/report.js" >sentences
-    for what in $folders $pages; do
+    for what in $folders $pages $several; do
         kind=folder
         case " $pages " in *" $what "*) kind=name ;; esac
+        case " $several " in *" $what "*) kind=set ;; esac
         sed -n "s/^$kind //p" sentences | while IFS= read -r sentence; do skipped "$what: $sentence" "$1"; done
     done
     finish
@@ -51,12 +53,17 @@ swept() { "$PROGRAM" sweep "$SOURCE/problems/two-cars-25kmh.yaml" --vary trains.
 map() { "$PROGRAM" sweep two-trains.yaml --vary trains.A.speed_km_h=10:40:13 --vary 'parts.inner-end.coupler.tube.stages[0].force_kN=500:1200:8' -o map && mv map/report.html map.html; }
 sampled() { sed 's/^extends: .*/extends: two-trains.yaml/' "$SOURCE/examples/scatter.yaml" >scatter.yaml && { "$PROGRAM" sample scatter.yaml -n 100 -o sampled || [ $? = 1 ]; } && mv sampled/report.html sampled.html; }
 compared() { "$PROGRAM" compare rigid search/optimised.yaml -o compared.html; }
+scenarios() {
+    printf 'extends: two-trains.yaml\ndocument: {project: Line 8, author: J. Doe, revision: B, date: 2026-11-30}\nscenarios: [{name: slow, speed_km_h: 10}, {name: usual}, {name: fast, speed_km_h: 30}, {name: low, height_offset_mm: -40}, {name: high, height_offset_mm: 40}]\nchecks: {profile: en15227-2008, category: C-II, design_rules: true}\n' >several.yaml
+    "$PROGRAM" run several.yaml -o several.set
+}
+check "crushzone runs several scenarios" scenarios
 check "crushzone sweeps the speed" swept
 check "crushzone maps two values" map
 check "crushzone draws samples" sampled
 check "crushzone compares two designs" compared
 
-CHROMIUM=$(command -v chromium) NODE_PATH=$modules/node_modules node "$SOURCE/tests/browser/report.js" $folders $(printf '%s.html ' $pages) >cases.txt 2>&1
+CHROMIUM=$(command -v chromium) NODE_PATH=$modules/node_modules node "$SOURCE/tests/browser/report.js" $folders $(printf '%s.html ' $pages) $(printf '%s.set ' $several) >cases.txt 2>&1
 code=$?
 cat cases.txt
 n_passed=$((n_passed + $(grep -c '^ok - ' cases.txt)))

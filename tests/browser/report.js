@@ -1,5 +1,5 @@
-// The report as a browser shows it: report.js FOLDER|PAGE.html... prints one line "ok - sentence" or "not ok - sentence" per
-// case. Of a folder it is the report of a run, with cursor and animation; a page by itself has figures only.
+// The report as a browser shows it: report.js FOLDER|PAGE.html|FOLDER.set... prints one line "ok - sentence" or "not ok - sentence" per
+// case. Of a folder it is the report of a run, with cursor and animation; a page by itself has figures only; a set has several scenarios.
 'use strict';
 const fs = require('fs');
 const path = require('path');
@@ -323,12 +323,88 @@ async function look(browser, folder) {
   await page.context().close();
 }
 
+/* Every link of a page leads to something: a part of the page, or a file. */
+async function linksLead(page, file) {
+  const targets = await page.evaluate(() => Array.from(document.querySelectorAll('a[href]')).map(a => a.getAttribute('href')));
+  const ids = await page.evaluate(() => Array.from(document.querySelectorAll('[id]')).map(e => e.id));
+  if (new Set(ids).size !== ids.length) return 'an id is there twice';
+  for (const target of targets) {
+    const there = target.startsWith('#') ? ids.includes(target.slice(1)) : fs.existsSync(path.join(path.dirname(file), decodeURIComponent(target)));
+    if (!there) return `${target} is not there`;
+  }
+}
+
+/* Rows of the tables of checks and of the matrix on a narrow page: nothing of limit, value and margin is cut off. */
+async function isReadable(browser, file, width) {
+  const page = await open(browser, file, {viewport: {width, height: 900}, javaScriptEnabled: true});
+  const wrong = await page.evaluate(width => {
+    let n = 0;
+    for (const table of document.querySelectorAll('table.matrix, section > .wide > table.checks')) {
+      const heads = Array.from(table.querySelectorAll('th')).map(th => th.textContent);
+      for (const row of table.querySelectorAll('tr')) {
+        const cells = Array.from(row.querySelectorAll('td'));
+        const wanted = table.classList.contains('matrix') ? cells : cells.filter((cell, k) => ['limit', 'value', 'margin', 'verdict'].includes(heads[k]));
+        for (const cell of wanted.filter(cell => cell.textContent !== '')) {
+          const box = cell.getBoundingClientRect();
+          n++;
+          if (!(box.width > 0) || box.left < 0 || box.right > width) return `"${cell.textContent}" is at ${box.left} to ${box.right}`;
+        }
+      }
+    }
+    return n > 40 ? '' : `only ${n} cells`;
+  }, width);
+  await page.context().close();
+  return wrong;
+}
+
+/* The matrix has the verdicts of checks.csv's document, a cell for each check that decides there. */
+async function matrixIsThatOfChecks(page, folder) {
+  const summary = JSON.parse(fs.readFileSync(path.join(folder, 'summary.json')));
+  const table = await page.evaluate(() => Array.from(document.querySelectorAll('table.matrix tr')).map(row => Array.from(row.children).map(cell => [cell.textContent, cell.className])));
+  const heads = table[0].map(cell => cell[0]);
+  for (const row of table.slice(2))
+    for (let k = 1; k < heads.length - 1; k++) {
+      const checks = summary.checks.filter(check => check.name === row[0][0] && (check.family || check.scenario) === heads[k]);
+      if ((checks.length === 0) !== (row[k][0] === '')) return `${row[0][0]}, ${heads[k]}: "${row[k][0]}" for ${checks.length} checks`;
+      if (checks.some(check => check.verdict === 'fail') !== row[k][1].includes('fail')) return `${row[0][0]}, ${heads[k]}: ${row[k]}`;
+    }
+  if (table.length < 10 || heads.length < 5) return 'it is small';
+}
+
+/* A run of several scenarios: the first page has the matrix, and figures of the scenarios that decide. */
+async function lookAtSet(browser, folder) {
+  const set = path.basename(folder, '.set'), file = path.join(folder, 'report.html'), page = await open(browser, file);
+  await check(`${set}: the report loads nothing and prints nothing on the console`, () => movesQuietly(page));
+  await check(`${set}: an XML parser accepts it`, () => isWellFormed(page, file));
+  await check(`${set}: it is smaller than 1 MB`, () => (fs.statSync(file).size <= 1e6 ? '' : `${fs.statSync(file).size} bytes`));
+  await check(`${set}: the matrix is that of the checks`, () => matrixIsThatOfChecks(page, folder));
+  await check(`${set}: every link leads to a check, a figure or the report of a scenario`, () => linksLead(page, file));
+  await check(`${set}: links of a scenario's report lead somewhere, too`, async () => {
+    const other = path.join(folder, 'slow', 'report.html'), below = await open(browser, other);
+    return linksLead(below, other);
+  });
+  await check(`${set}: the head has project, author, revision, date and profile`, async () => {
+    const head = await page.locator('dl.document').textContent();
+    return ['Line 8', 'J. Doe', 'B', '2026-11-30', 'en15227-2008', 'C-II', 'crushzone '].find(word => !head.includes(word));
+  });
+  await check(`${set}: figures of other scenarios have no cursor`, async () => {
+    const still = await page.locator('#deciding svg.still').count(), moving = await page.locator('#deciding svg.still path[data-y]').count();
+    return still > 0 && moving === 0 ? '' : `${still} figures, ${moving} curves with a cursor`;
+  });
+  await check(`${set}: labels do not overlap and legends are outside the axes`, () => labelsKeepApart(page));
+  await check(`${set}: at 400 pixels limit, value and margin are visible`, () => isReadable(browser, file, 400));
+  await check(`${set}: it fits 1280 pixels`, () => fits(browser, file, 1280, `${set}-1280.png`, 'light'));
+  await check(`${set}: it fits 400 pixels, in the dark`, () => fits(browser, file, 400, `${set}-400.png`, 'dark'));
+  await check(`${set}: it prints`, () => prints(page));
+  await page.context().close();
+}
+
 (async () => {
   const browser = await chromium.launch({
     executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
     args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
            '--disable-component-update', '--disable-sync']});
-  for (const what of process.argv.slice(2)) await (what.endsWith('.html') ? lookAtPage : look)(browser, what);
+  for (const what of process.argv.slice(2)) await (what.endsWith('.html') ? lookAtPage : what.endsWith('.set') ? lookAtSet : look)(browser, what);
   await browser.close();
   process.exit(failed > 0 ? 1 : 0);
 })().catch(error => {

@@ -1,6 +1,7 @@
 /* The pages of a real run: complete, in order, and never cut without a message. */
 #include "support/check.h"
 
+#include "evaluate/metric.h"
 #include "report/page.h"
 #include "report/well_formed.h"
 #include "simulate/input_curve.h"
@@ -62,6 +63,24 @@ static Ran run_set(const char *name, const char *scenario, int n_set, const char
 static Ran run_problem(const char *name) {
     static const char *const set[] = {"simulation.duration_ms=150"};
     return run_set(name, NULL, 1, set);
+}
+
+/* The problem of two cars in two scenarios, of which the second fails more. */
+static Ran run_two_scenarios(void) {
+    static const char text[] = "extends: two-cars-25kmh.yaml\n"
+                               "simulation: {duration_ms: 150}\n"
+                               "scenarios: [{name: slow, speed_km_h: 10}, {name: usual}]\n";
+    CzProblemOptions options = cz_problem_options_default();
+    const CzEvaluatorOptions choice = cz_evaluator_options_default();
+    CzError error = {0};
+    Ran ran = {0};
+    options.share_folder = CZ_SOURCE_FOLDER "/problems";
+    if (cz_problem_read_text(text, sizeof text - 1, "two.yaml", CZ_SOURCE_FOLDER "/problems",
+                             &options, &ran.problem, &error) != CZ_OK ||
+        cz_evaluator_build(ran.problem, &choice, &ran.evaluator, &error) != CZ_OK ||
+        cz_evaluate(ran.evaluator, 1, NULL, true, &ran.evaluation, &error) != CZ_OK)
+        fail_msg("%s", error.message);
+    return ran;
 }
 
 static CzReport run_of(const Ran *ran) {
@@ -129,6 +148,53 @@ static void every_lack_of_memory_is_reported(void **state) {
     }
     assert_true(n_failed > 50);
     free_ran(&ran);
+}
+
+static void a_page_of_several_scenarios_begins_with_their_matrix(void **state) {
+    (void)state;
+    static const char *const order[] = {
+        "id=\"matrix\"", "href=\"slow/report.html\"", "href=\"#check-1\"", "href=\"#deciding-1\"",
+        "id=\"checks\"", "id=\"deciding\"",           "id=\"deciding-1\"", "id=\"trains\""};
+    Ran ran = run_two_scenarios();
+    const CzReport run = run_of(&ran);
+    char *text = NULL;
+    assert_int_equal(write_page(&run, &text), CZ_OK);
+    const char *from = text;
+    for (size_t i = 0; i < sizeof order / sizeof *order; i++) {
+        from = strstr(from, order[i]);
+        if (from == NULL)
+            print_error("%s is not where it belongs\n", order[i]);
+        assert_non_null(from);
+    }
+    assert_true(is_well_formed(strchr(text, '\n')));
+    free(text);
+    for (int n = 0; n < 400; n += 13) { /* some of the requests for memory */
+        text = NULL;
+        n_request = 0;
+        failing = n;
+        const CzStatus status = write_page(&run, &text);
+        const bool has_failed = n_request > failing;
+        failing = -1;
+        free(text);
+        assert_int_equal(status, has_failed ? CZ_STATUS_NO_MEMORY : CZ_OK);
+    }
+    free_ran(&ran);
+}
+
+/* Every entry of the list of figures names a metric. */
+static void figures_that_decide_belong_to_metrics(void **state) {
+    (void)state;
+    static const char *const named[] = {
+#define CZ_FIGURE_OF(metric, chart) metric,
+#include "report/deciding_figures.def"
+    };
+    for (size_t i = 0; i < sizeof named / sizeof *named; i++) {
+        bool exists = false;
+        for (int k = 0; k < cz_n_metric_kind(); k++)
+            exists |= strcmp(cz_metric_kind(k)->name, named[i]) == 0;
+        if (!exists)
+            fail_msg("there is no metric %s", named[i]);
+    }
 }
 
 static void a_run_that_was_not_kept_has_no_page(void **state) {
@@ -334,6 +400,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sections_are_in_order),
         cmocka_unit_test(every_lack_of_memory_is_reported),
+        cmocka_unit_test(a_page_of_several_scenarios_begins_with_their_matrix),
+        cmocka_unit_test(figures_that_decide_belong_to_metrics),
         cmocka_unit_test(a_run_that_was_not_kept_has_no_page),
         cmocka_unit_test(curves_of_another_run_are_those_of_the_same_names),
         cmocka_unit_test(the_cursor_shows_every_recorded_row),

@@ -1,0 +1,178 @@
+/* Which figures show what decides each criterion: its scenario, its figure, its place. */
+#include "report/page_deciding.h"
+
+#include "base/error.h"
+#include "evaluate/metric.h"
+#include "report/matrix.h"
+#include "report/runs.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- the figure of a metric ---- */
+
+static const struct {
+    const char *metric;
+    CzChart chart;
+} figures[] = {
+#define CZ_FIGURE_OF(metric, chart) {metric, CZ_CHART_##chart},
+#include "report/deciding_figures.def"
+};
+
+static const CzMetricKind *kind_named(const char *name) {
+    for (int i = 0; name != NULL && i < cz_n_metric_kind(); i++)
+        if (strcmp(cz_metric_kind(i)->name, name) == 0)
+            return cz_metric_kind(i);
+    return NULL;
+}
+
+static CzChart chart_of(const CzMetricKind *kind) {
+    static const CzChart of_level[] = {[CZ_LEVEL_RUN] = CZ_CHART_ENERGY,
+                                       [CZ_LEVEL_INTERFACE] = CZ_CHART_FORCE_CLOSURE,
+                                       [CZ_LEVEL_ELEMENT] = CZ_CHART_FORCE_CLOSURE,
+                                       [CZ_LEVEL_VEHICLE] = CZ_CHART_CAR_ACCELERATION,
+                                       [CZ_LEVEL_SECTION] = CZ_CHART_FORCE_CLOSURE};
+    for (size_t i = 0; i < sizeof figures / sizeof *figures; i++)
+        if (strcmp(figures[i].metric, kind->name) == 0)
+            return figures[i].chart;
+    return of_level[kind->level];
+}
+
+/* ---- the place ---- */
+
+/* Whether the words of a place begin with a name. */
+static bool begins_with(const char *where, const char *name) {
+    const size_t n = strlen(name);
+    return strncmp(where, name, n) == 0 && (where[n] == '\0' || where[n] == ' ');
+}
+
+static int vehicle_of(const CzRunSummary *run, const char *where) {
+    for (int i = 0; i < run->n_vehicle; i++)
+        if (begins_with(where, run->vehicle[i].name))
+            return i;
+    return -1;
+}
+
+/* The interface of an interface, an element or a section. */
+static int interface_of(const CzRunSummary *run, const char *where) {
+    for (int i = 0; i < run->n_interface; i++) {
+        if (begins_with(where, run->interface[i].name))
+            return i;
+        for (int e = 0; e < run->interface[i].n_element; e++)
+            if (strcmp(where, run->interface[i].element[e].name) == 0)
+                return i;
+    }
+    const int vehicle = vehicle_of(run, where);
+    const int found = vehicle - (strstr(where, " rear") != NULL);
+    return vehicle >= 0 && found < run->n_interface ? found : -1;
+}
+
+/* Finds the figure of a check on the page of its scenario; false where there is none. */
+static bool find_figure(const CzPage *page, const CzCheckResult *check, CzDecidingFigure *figure) {
+    const CzMetricKind *kind = kind_named(check->metric);
+    if (kind == NULL || cz_level_is_of_design(kind->level))
+        return false;
+    *figure = (CzDecidingFigure){.page = page, .chart = chart_of(kind)};
+    const CzChartCount count = cz_charts[figure->chart].count;
+    if (count == CZ_CHART_PER_INTERFACE)
+        figure->index = interface_of(page->summary, check->where);
+    else if (count == CZ_CHART_PER_CAR)
+        figure->index = vehicle_of(page->summary, check->where);
+    return figure->index >= 0 && figure->index < cz_chart_count(page, figure->chart);
+}
+
+/* ---- collecting ---- */
+
+static int run_named(const CzEvaluation *evaluation, const char *scenario) {
+    for (int i = 0; i < evaluation->n_run; i++) {
+        const CzRunSummary *run = cz_kept_run(evaluation, i);
+        if (run != NULL && strcmp(run->scenario, scenario) == 0)
+            return i;
+    }
+    return -1;
+}
+
+/* The page of a scenario, begun when it is needed first. */
+static CzStatus page_of(CzPage *page, int scenario, const CzPage **found, CzError *error) {
+    CzDeciding *deciding = page->deciding;
+    *found = page;
+    if (scenario == page->scenario)
+        return CZ_OK;
+    for (int i = 0; i < deciding->n_page; i++)
+        if (deciding->page[i].scenario == scenario) {
+            *found = &deciding->page[i];
+            return CZ_OK;
+        }
+    CzPage *beside = &deciding->page[deciding->n_page++];
+    *beside = (CzPage){.problem = page->problem,
+                       .evaluation = page->evaluation,
+                       .options = page->options,
+                       .scenario = scenario,
+                       .is_beside = true};
+    *found = beside;
+    return cz_page_begin(beside, error);
+}
+
+static int add_figure(CzDeciding *deciding, const CzDecidingFigure *figure) {
+    for (int i = 0; i < deciding->n_figure; i++) {
+        const CzDecidingFigure *other = &deciding->figure[i];
+        if (other->page == figure->page && other->chart == figure->chart &&
+            other->index == figure->index)
+            return i;
+    }
+    deciding->figure[deciding->n_figure] = *figure;
+    return deciding->n_figure++;
+}
+
+static CzStatus allocate(CzPage *page, CzError *error) {
+    const size_t n_row = (size_t)page->matrix->n_row;
+    CzDeciding *deciding = page->deciding = calloc(1, sizeof *deciding);
+    if (deciding == NULL)
+        return cz_no_memory(error, "the report");
+    deciding->page = calloc((size_t)page->evaluation->n_run + 1, sizeof *deciding->page);
+    deciding->figure = calloc(n_row + 1, sizeof *deciding->figure);
+    deciding->of_row = calloc(n_row + 1, sizeof *deciding->of_row);
+    return deciding->page == NULL || deciding->figure == NULL || deciding->of_row == NULL
+               ? cz_no_memory(error, "the report")
+               : CZ_OK;
+}
+
+CzStatus cz_page_collect_deciding(CzPage *page, CzError *error) {
+    CzMatrix *matrix = page->matrix = calloc(1, sizeof *matrix);
+    if (matrix == NULL || !cz_matrix_build(matrix, page->evaluation))
+        return cz_no_memory(error, "the report");
+    if (!page->is_top || cz_matrix_n_scenario(matrix) < 2)
+        return CZ_OK;
+    CZ_TRY(allocate(page, error));
+    for (int row = 0; row < matrix->n_row; row++) {
+        const int column = cz_matrix_deciding(matrix, row);
+        const CzCheckResult *check = column >= 0 ? cz_matrix_check(matrix, row, column) : NULL;
+        const int run = check != NULL ? run_named(page->evaluation, check->scenario) : -1;
+        const CzPage *of = NULL;
+        CzDecidingFigure figure;
+        page->deciding->of_row[row] = -1;
+        if (run < 0)
+            continue;
+        CZ_TRY(page_of(page, run, &of, error));
+        if (find_figure(of, check, &figure))
+            page->deciding->of_row[row] = add_figure(page->deciding, &figure);
+    }
+    return CZ_OK;
+}
+
+void cz_page_free_deciding(CzPage *page) {
+    CzDeciding *deciding = page->deciding;
+    if (page->matrix != NULL)
+        cz_matrix_free(page->matrix);
+    free(page->matrix);
+    page->matrix = NULL;
+    for (int i = 0; deciding != NULL && i < deciding->n_page; i++)
+        cz_page_free(&deciding->page[i]);
+    if (deciding != NULL) {
+        free(deciding->page);
+        free(deciding->figure);
+        free(deciding->of_row);
+    }
+    free(deciding);
+    page->deciding = NULL;
+}

@@ -241,22 +241,6 @@ void cz_outcome_put_constraint(CzReportTable *table, const CzEvaluator *evaluato
     cz_table_put(table, check != NULL ? cz_figure_margin(text, margin) : "");
 }
 
-int cz_outcome_n_violated(const CzEvaluation *best, int constraint) {
-    int n = best->constraint[constraint] > 0 ? 1 : 0;
-    if (n == 0 || best->constraint_check == NULL)
-        return n;
-    for (int i = 0; i < best->n_constraint; i++) {
-        if (i == constraint || best->constraint[i] <= 0 ||
-            strcmp(best->constraint_check[i].name, best->constraint_check[constraint].name) != 0)
-            continue;
-        if (best->constraint[i] > best->constraint[constraint] ||
-            (best->constraint[i] == best->constraint[constraint] && i < constraint))
-            return 0;
-        n++;
-    }
-    return n;
-}
-
 /* Every check that the best design violates, in its worst scenario; a constraint may also be a
  * target, which is not among the checks above. */
 static void write_violations(const CzEvaluator *evaluator, const CzOutcome *outcome,
@@ -268,7 +252,7 @@ static void write_violations(const CzEvaluator *evaluator, const CzOutcome *outc
     CzReportTable table;
     cz_table_begin(&table, "violated, worst scenario;" CZ_CONSTRAINT_HEADS ";>scenarios");
     for (int i = 0; i < best->n_constraint; i++) {
-        const int n = cz_outcome_n_violated(best, i);
+        const int n = cz_worth_n_violated(best, i);
         if (n == 0)
             continue;
         cz_outcome_put_constraint(&table, evaluator, best, i,

@@ -13,10 +13,6 @@ void cz_outcome_begin_variables(CzReportTable *table, const CzReport *report, bo
 void cz_outcome_put_constraint(CzReportTable *table, const CzEvaluator *evaluator,
                                const CzEvaluation *best, int i, double margin);
 
-/* Number of scenarios in which the best design violates the check of a constraint, where this
- * constraint is the worst of them; 0 for all others. */
-int cz_outcome_n_violated(const CzEvaluation *best, int constraint);
-
 /* End of a search, in capital letters; for a fit with respect to its tolerances. */
 const char *cz_outcome_words(const CzEvaluator *evaluator, const CzOutcome *outcome);
 

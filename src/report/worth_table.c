@@ -3,7 +3,6 @@
 
 #include "evaluate/evaluator.h"
 #include "report/figure.h"
-#include "report/outcome_table.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -12,13 +11,29 @@ bool cz_worth_is_known(const CzOutcome *outcome) {
     return outcome->multiplier != NULL;
 }
 
+int cz_worth_n_violated(const CzEvaluation *best, int constraint) {
+    int n = best->constraint[constraint] > 0 ? 1 : 0;
+    if (n == 0 || best->constraint_check == NULL)
+        return n;
+    for (int i = 0; i < best->n_constraint; i++) {
+        if (i == constraint || best->constraint[i] <= 0 ||
+            strcmp(best->constraint_check[i].name, best->constraint_check[constraint].name) != 0)
+            continue;
+        if (best->constraint[i] > best->constraint[constraint] ||
+            (best->constraint[i] == best->constraint[constraint] && i < constraint))
+            return 0;
+        n++;
+    }
+    return n;
+}
+
 /* Names of the limits that the best design violates: they cannot all be kept. */
 static void write_conflict(const CzReport *report, size_t room, char *text) {
     const CzEvaluation *best = &report->outcome->best_evaluation;
     size_t n = (size_t)snprintf(text, room, "These limits conflict: ");
     const char *between = "";
     for (int i = 0; i < best->n_constraint && n < room; i++) {
-        const int n_scenario = cz_outcome_n_violated(best, i);
+        const int n_scenario = cz_worth_n_violated(best, i);
         if (n_scenario == 0)
             continue;
         n += (size_t)snprintf(text + n, room - n, "%s%s", between,

@@ -22,4 +22,8 @@ void cz_margins_begin_table(CzReportTable *table, const CzReport *report);
 /* A sentence on the smallest relaxation of one limit, "" when none is known; `room` bytes. */
 void cz_relaxation_sentence(const CzReport *report, size_t room, char *text);
 
+/* Number of scenarios in which the best design violates the check of a constraint, where this
+ * constraint is the worst of them; 0 for all others. */
+int cz_worth_n_violated(const CzEvaluation *best, int constraint);
+
 #endif

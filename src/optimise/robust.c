@@ -314,7 +314,8 @@ static CzStatus judge(Robust *robust, CzRobustRound *round, Found *found, int *n
     }
     if (added->arena.out_of_memory)
         return cz_no_memory(error, "further scenarios");
-    compare(robust, found);
+    if (!is_stopped(robust) || robust->result->sampling == NULL)
+        compare(robust, found); /* a judgement that was cut short is no better one */
     return CZ_OK;
 }
 

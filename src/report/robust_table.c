@@ -61,8 +61,9 @@ void cz_robust_say_challenge(const CzRobust *robust, char text[CZ_ROBUST_SENTENC
     if (cz_problem_input(problem)->uncertainty.n_envelope == 0)
         return;
     if (challenge == NULL)
-        snprintf(text, CZ_ROBUST_SENTENCE,
-                 "The adversary was not asked, because the design fails without it");
+        snprintf(text, CZ_ROBUST_SENTENCE, "The adversary was not asked, because the %s",
+                 robust->outcome->status == CZ_OUTCOME_INTERRUPTED ? "search was interrupted"
+                                                                   : "design fails without it");
     else if (challenge->is_broken)
         snprintf(text, CZ_ROBUST_SENTENCE,
                  "The adversary breaks the design: %d weak points after %d runs", challenge->n_weak,

@@ -196,6 +196,33 @@ static void a_stop_ends_the_search(void **state) {
     cz_problem_free(problem);
 }
 
+/* Stops a search when the samples of a round after the first are to be run. */
+static void stop_in_second_judgement(const CzProgress *progress, void *data) {
+    volatile sig_atomic_t *stop = data;
+    if (progress->phase != NULL && strcmp(progress->phase, "samples") == 0 && progress->feasible)
+        *stop = 1; /* only a round that was judged has a design that passes */
+}
+
+static void a_judgement_that_was_cut_short_is_no_better(void **state) {
+    (void)state;
+    CzProblem *problem = read_with(scatter);
+    CzRobust *robust = NULL;
+    CzError error = {0};
+    volatile sig_atomic_t stop = 0;
+    CzOptimiseOptions options = cz_optimise_options_default();
+    options.verify_methods = 0;
+    options.stop = &stop;
+    options.progress = stop_in_second_judgement;
+    options.progress_data = (void *)&stop;
+    assert_int_equal(cz_optimise_robust(problem, NULL, &options, &robust, &error), CZ_OK);
+    assert_int_equal(robust->outcome->status, CZ_OUTCOME_INTERRUPTED);
+    assert_int_equal(robust->n_round, 2);
+    assert_true(robust->round[0].is_best);
+    assert_int_equal(robust->sampling->n_run, 20);
+    cz_robust_free(robust);
+    cz_problem_free(problem);
+}
+
 /* A range in place of a tolerance would replace the design's own value. */
 static void a_range_of_a_variable_is_refused(void **state) {
     (void)state;
@@ -226,6 +253,7 @@ int main(void) {
         cmocka_unit_test(too_much_scatter_is_not_feasible),
         cmocka_unit_test(other_statistics_ask_for_less),
         cmocka_unit_test(a_stop_ends_the_search),
+        cmocka_unit_test(a_judgement_that_was_cut_short_is_no_better),
         cmocka_unit_test(a_range_of_a_variable_is_refused),
         cmocka_unit_test(only_problems_with_scatter_ask_for_it),
     };

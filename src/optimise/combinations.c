@@ -7,6 +7,10 @@
 #include <math.h>
 #include <string.h>
 
+/* With many scenarios a verdict often hangs on one whose response is chaotic: this part of the
+ * evaluations is left for the case that the best design is not verified (ours). */
+enum { RESERVED_PART = 4 };
+
 /* The record with the smallest largest violation, on the increments where `on_grid` is set: what a
  * search minimises that maximises the smallest margin, while it ranks designs by the sum. */
 static long least_violated(const CzSearch *search, bool on_grid) {
@@ -167,7 +171,12 @@ CzStatus cz_combinations(CzEvaluator *evaluator, const CzOptimiseOptions *option
     CZ_TRY(cz_replay_begin(&combinations->replay, evaluator, options->journal, error));
     if (n > 1)
         return search_choices(n, options, combinations, error);
-    return begin(combinations, 0, options->start, options->evaluations, options, error);
+    const long part = options->evaluations / RESERVED_PART;
+    if (combinations->replay.selection.is_on && options->verify_methods != 0 &&
+        part >= CZ_FEWEST_EVALUATIONS)
+        combinations->n_reserved = part;
+    return begin(combinations, 0, options->start, options->evaluations - combinations->n_reserved,
+                 options, error);
 }
 
 CzStatus cz_combinations_go_on(CzCombinations *combinations, const double *x, long evaluations,

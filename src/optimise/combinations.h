@@ -12,6 +12,7 @@ typedef struct CzCombinations {
     int n;                /* searches that were begun */
     CzSubspace *subspace; /* with their searches (n) */
     int chosen;           /* search with the best design */
+    long n_reserved;      /* evaluations for the case that the best design is not verified */
 } CzCombinations;
 
 /* Runs all searches; `options` has no default values left to fill in. Statuses: CZ_OK, also when
@@ -20,7 +21,10 @@ typedef struct CzCombinations {
 CZ_MUST_CHECK CzStatus cz_combinations(CzEvaluator *evaluator, const CzOptimiseOptions *options,
                                        CzCombinations *combinations, CzError *error);
 
-enum { CZ_MOST_FURTHER = 1 };
+enum {
+    CZ_MOST_FURTHER = 1,
+    CZ_FEWEST_EVALUATIONS = 12 /* for a further search (ours) */
+};
 
 /* Searches once more with the choices of a design (n_variable), from it, with at most this many
  * evaluations; no more than CZ_MOST_FURTHER times. `required` is borrowed until the end. Statuses

@@ -179,6 +179,7 @@ static void write_end(const CzCombinations *combinations, long limit, const CzOu
                       size_t room, char *text) {
     const CzSearch *search = &combinations->subspace[combinations->n - 1].search;
     const long left = limit - outcome->n_evaluation;
+    const bool is_kept = combinations->n == 1 && combinations->n_reserved > 0;
     const CzEvaluation *start = &outcome->start_evaluation;
     if (start->status == CZ_OK && isnan(start->objective) && search->best < 0)
         snprintf(text, room, "the objective has no value in any design");
@@ -190,8 +191,9 @@ static void write_end(const CzCombinations *combinations, long limit, const CzOu
         snprintf(text, room, "the limit of %ld evaluations is reached", limit);
     else if (search->is_spent)
         snprintf(text, room, "%ld of %ld evaluations left, %s", left, limit,
-                 cz_search_has_steps(search) ? "all reserved for the increments"
-                                             : "too few to continue the search");
+                 is_kept                       ? "reserved for designs that are not verified"
+                 : cz_search_has_steps(search) ? "all reserved for the increments"
+                                               : "too few to continue the search");
     else
         snprintf(text, room, "no further improvement");
 }

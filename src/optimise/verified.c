@@ -18,8 +18,7 @@
 
 enum {
     MOST_VERIFIED = 4, /* designs that are verified in all scenarios after the best one (ours) */
-    MOST_TRIED = 24,   /* designs that are tried for it (ours) */
-    FEWEST_EVALUATIONS = 12 /* for a further search (ours) */
+    MOST_TRIED = 24    /* designs that are tried for it (ours) */
 };
 
 typedef struct Candidate {
@@ -275,7 +274,7 @@ static CzStatus try_list(Trial *trial, bool *is_verified, CzError *error) {
 static CzStatus search_on(Trial *trial, CzError *error) {
     CzCombinations *combinations = trial->combinations;
     const long left = trial->options->evaluations - cz_combinations_n_record(combinations);
-    if (left < FEWEST_EVALUATIONS || cz_evaluator_is_fit(trial->evaluator))
+    if (left < CZ_FEWEST_EVALUATIONS || cz_evaluator_is_fit(trial->evaluator))
         return CZ_OK;
     for (int i = 0; i < trial->n_listed; i++) {
         const Candidate *candidate = &trial->list[i];

@@ -122,11 +122,43 @@ static void verified_design_between_the_increments_is_given_and_reported(void **
     end(&made);
 }
 
+/* With many scenarios a quarter of the evaluations is left for a design that is not verified. */
+static Case search_many(void) {
+    char more[2048];
+    CzProblem *problem = NULL;
+    CzError error = {0};
+    const int n = snprintf(more, sizeof more, "  - {name: many, sweep: {speed_km_h: 6:25:20}}\n");
+    snprintf(more + n, sizeof more - (size_t)n, sizing, 0.9);
+    memcpy(strstr(more, "increment: 10}"), "increment: 0.5}", 15);
+    assert_int_equal(small_problem_read(more, 0, NULL, &problem, &error), CZ_OK);
+    Case made = begin_with(problem, 2);
+    optimise(&made, NULL);
+    return made;
+}
+
+static void evaluations_are_left_for_a_design_that_is_not_verified(void **state) {
+    (void)state;
+    stand_in_reset();
+    Case made = search_many();
+    assert_int_equal(made.outcome->status, CZ_OUTCOME_FEASIBLE);
+    const double force = made.outcome->best[0];
+    assert_true(made.outcome->n_evaluation <= 45);
+    assert_non_null(
+        strstr(made.outcome->why_stopped, "reserved for designs that are not verified"));
+    end(&made);
+    stand_in.unsteady_below = (force + 5) * 1e3;
+    made = search_many();
+    assert_true(made.outcome->n_evaluation > 45);
+    assert_int_equal(made.outcome->status, CZ_OUTCOME_FEASIBLE);
+    end(&made);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(design_that_is_not_verified_is_not_the_best),
         cmocka_unit_test(without_a_verified_design_there_is_no_success),
         cmocka_unit_test(change_of_a_verdict_becomes_a_required_margin),
+        cmocka_unit_test(evaluations_are_left_for_a_design_that_is_not_verified),
         cmocka_unit_test(verified_design_between_the_increments_is_given_and_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -237,6 +237,14 @@ static void conclude_verification(const CzCombinations *combinations, long limit
              is_found ? "; %s with a better objective not verified" : "; %s not verified", designs);
 }
 
+/* Looks for the relaxation of a limit; a design that it finds to pass without one is verified. */
+static CzStatus relax(CzEvaluator *evaluator, const CzOptimiseOptions *options, CzOutcome *outcome,
+                      CzError *error) {
+    const bool was_infeasible = outcome->status == CZ_OUTCOME_INFEASIBLE;
+    CZ_TRY(cz_relaxation_find(evaluator, options->stop, outcome, error));
+    return was_infeasible ? cz_outcome_verify(evaluator, options, outcome, error) : CZ_OK;
+}
+
 static CzStatus fill_outcome(CzEvaluator *evaluator, CzCombinations *combinations,
                              const CzOptimiseOptions *options, CzOutcome *outcome, CzError *error) {
     const CzSubspace *chosen = &combinations->subspace[combinations->chosen];
@@ -254,7 +262,7 @@ static CzStatus fill_outcome(CzEvaluator *evaluator, CzCombinations *combination
         CZ_TRY(cz_outcome_take_history(outcome, combinations, error));
         conclude_verification(combinations, options->evaluations, outcome);
     }
-    CZ_TRY(cz_relaxation_find(evaluator, options->stop, outcome, error));
+    CZ_TRY(relax(evaluator, options, outcome, error));
     CZ_TRY(cz_sensitivity_take(evaluator, options->stop, outcome, error));
     CZ_TRY(cz_margins_order(evaluator, outcome, error));
     return cz_stationarity_find(evaluator, outcome, error);

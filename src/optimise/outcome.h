@@ -66,7 +66,8 @@ CZ_MUST_CHECK CzStatus cz_margins_order(const CzEvaluator *evaluator, CzOutcome 
                                         CzError *error);
 
 /* Fills `relaxation` when no design passes, by short searches of the least violation of one limit
- * with all others satisfied (relaxation.c). Statuses: those of cz_evaluate; CZ_OK after the stop
+ * with all others satisfied (relaxation.c); a design that passes without a relaxation becomes the
+ * best design, not yet verified. Statuses: those of cz_evaluate; CZ_OK after the stop
  * flag was set. */
 CZ_MUST_CHECK CzStatus cz_relaxation_find(CzEvaluator *evaluator, const volatile sig_atomic_t *stop,
                                           CzOutcome *outcome, CzError *error);

@@ -2,7 +2,8 @@
  *
  * After a search without a design that passes, the violation of one of the most violated limits at
  * a time is minimised while all others are constraints, with as many evaluations in all as the
- * search had. The least of these violations is confirmed by a full run.
+ * search had. The least of these violations is confirmed by a full run. A design that turns out to
+ * pass without any relaxation becomes the result of the search.
  */
 #include "base/arena.h"
 #include "base/error.h"
@@ -13,6 +14,7 @@
 #include "optimise/strategy.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -151,6 +153,24 @@ static CzStatus relax(Relaxed *relaxed, const CzOptimiseOptions *options, CzOutc
     return status;
 }
 
+/* Makes the design without any violation the result. */
+static CzStatus adopt(CzEvaluator *evaluator, CzOutcome *outcome, CzError *error) {
+    const CzRelaxation relaxation = outcome->relaxation;
+    memcpy(outcome->best, relaxation.x, (size_t)outcome->n_variable * sizeof *outcome->best);
+    cz_evaluation_free(&outcome->best_evaluation);
+    outcome->relaxation = (CzRelaxation){0};
+    outcome->status = CZ_OUTCOME_FEASIBLE;
+    CZ_TRY(cz_evaluate(evaluator, 1, outcome->best, true, &outcome->best_evaluation, error));
+    cz_outcome_mark_bounds(evaluator, outcome);
+    snprintf(outcome->why_stopped, sizeof outcome->why_stopped,
+             "the design was found by %ld more, which relaxed one limit", relaxation.n_evaluation);
+    return CZ_OK;
+}
+
+static bool passes_unrelaxed(const CzRelaxation *relaxation) {
+    return relaxation->x != NULL && relaxation->violation <= 0;
+}
+
 /* The most violated limit with a margin of those below `below`, -1 when there is none. */
 static int next_limit(const CzEvaluator *evaluator, const CzEvaluation *best, double below) {
     int next = -1;
@@ -186,11 +206,14 @@ CzStatus cz_relaxation_find(CzEvaluator *evaluator, const volatile sig_atomic_t 
     double below = INFINITY;
     for (int i = 0; i < n_limit && status == CZ_OK; i++) {
         relaxed.limit = next_limit(evaluator, best, below);
-        if (relaxed.function.n_variable == 0 || (stop != NULL && *stop != 0))
+        if (relaxed.function.n_variable == 0 || (stop != NULL && *stop != 0) ||
+            passes_unrelaxed(&outcome->relaxation))
             break;
         below = best->constraint[relaxed.limit];
         status = relax(&relaxed, &options, outcome, error);
     }
     cz_arena_free(&arena);
+    if (status == CZ_OK && passes_unrelaxed(&outcome->relaxation))
+        status = adopt(evaluator, outcome, error);
     return status;
 }

@@ -46,6 +46,12 @@ bad_profile() {
         exits 2 "$C" profile show bad && says err.txt "bad.yaml:5:5: error: limit 'a' of a profile lacks 'source'" && exits 0 "$C" profile list && says out.txt 'cannot be read'
 }
 check "a profile without a source is refused with its place" bad_profile
+bad_metric() {
+    sed 's/vehicles.flange_share /vehicles.flange_shore /' "$SOURCE/problems/profiles/collision-limits.yaml" >profiles/metric.yaml &&
+        printf 'extends: %s/problems/wall.yaml\nchecks: {profile: metric}\n' "$SOURCE" >metric.yaml &&
+        exits 2 "$C" validate metric.yaml -q && grep -q "profiles/metric.yaml:[0-9]*:5: error: there is no metric 'vehicles.flange_shore'" err.txt
+}
+check "an unknown metric of a profile is refused with its place" bad_metric
 told_checks() { "$C" help checks >told.txt && for word in profile category limits design_rules metric max min scenarios "stroke used:" "override:" interfaces.peak_force_kN; do grep -q "^  $word " told.txt || return 1; done; }
 check "help checks lists the keys of the section and every design rule" told_checks
 manual() { exits 0 "$C" help --man && for word in run optimise '\\-\\-json' 'exit\\-codes' 130; do grep -q -- "$word" out.txt || return 1; done; }

@@ -154,6 +154,10 @@ static int check_outputs(const CzArguments *arguments) {
         cz_fail(&error, CZ_STATUS_INPUT, "--iso-mme needs a result folder: give -o DIR");
         return cz_tell_error(arguments, &error);
     }
+    if (junit != NULL && strcmp(junit, "-") == 0) {
+        cz_fail(&error, CZ_STATUS_INPUT, "--junit writes a file; standard output has the tables");
+        return cz_tell_error(arguments, &error);
+    }
     if (junit != NULL && cz_report_check_file(NULL, junit, false, &error) != CZ_OK)
         return cz_tell_error(arguments, &error);
     return 0;

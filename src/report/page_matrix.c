@@ -23,12 +23,17 @@ void cz_page_write_document(CzMarkup *markup, const CzProblem *problem) {
 
 /* ---- matrix ---- */
 
+/* Columns of a table, which the last one with the deciding figures follows. */
+typedef struct Columns {
+    int begin, end;
+    bool has_figures;
+} Columns;
+
 /* Verdict of each scenario, with a link to its report. */
-static void put_verdicts(CzReportTable *table, const CzPage *page) {
-    const CzMatrix *matrix = page->matrix;
+static void put_verdicts(CzReportTable *table, const CzPage *page, const Columns *columns) {
     cz_table_put(table, "verdict");
-    for (int k = 0; k < matrix->n_column; k++) {
-        const CzMatrixColumn *column = &matrix->column[k];
+    for (int k = columns->begin; k < columns->end; k++) {
+        const CzMatrixColumn *column = &page->matrix->column[k];
         char address[CZ_ADDRESS_ROOM];
         cz_table_put_styled(table, cz_verdict_word(column->verdict),
                             cz_verdict_style(column->verdict));
@@ -37,15 +42,13 @@ static void put_verdicts(CzReportTable *table, const CzPage *page) {
             cz_table_link(table, address);
         }
     }
-    if (page->deciding != NULL)
+    if (columns->has_figures)
         cz_table_put(table, "");
 }
 
 /* The figure that decides a row. */
 static void put_figure(CzReportTable *table, const CzPage *page, int row) {
     char text[CZ_SENTENCE_ROOM], address[32];
-    if (page->deciding == NULL)
-        return;
     const int at = page->deciding->of_row[row];
     if (at < 0) {
         cz_table_put(table, "");
@@ -58,10 +61,10 @@ static void put_figure(CzReportTable *table, const CzPage *page, int row) {
     cz_table_link(table, address);
 }
 
-static void put_row(CzReportTable *table, const CzPage *page, int row) {
+static void put_row(CzReportTable *table, const CzPage *page, const Columns *columns, int row) {
     const CzMatrix *matrix = page->matrix;
     cz_table_put(table, matrix->row[row]);
-    for (int k = 0; k < matrix->n_column; k++) {
+    for (int k = columns->begin; k < columns->end; k++) {
         const CzCheckResult *check = cz_matrix_check(matrix, row, k);
         char text[CZ_MATRIX_ROOM], address[32];
         cz_table_put_styled(table, cz_matrix_text(check, text), cz_matrix_style(check));
@@ -71,30 +74,42 @@ static void put_row(CzReportTable *table, const CzPage *page, int row) {
                  matrix->cell[row * matrix->n_column + k] + 1);
         cz_table_link(table, address);
     }
-    put_figure(table, page, row);
+    if (columns->has_figures)
+        put_figure(table, page, row);
 }
 
-void cz_page_write_matrix(CzPage *page) {
+static void write_columns(CzPage *page, const Columns *columns) {
     const CzMatrix *matrix = page->matrix;
     CzReportTable table;
-    if (!cz_page_has_matrix(page))
-        return;
-    cz_markup_write(&page->markup, "<section id='matrix'>\n<h2>Criteria and scenarios</h2>\n"
-                                   "<p>" CZ_MATRIX_SIGNS " A verdict leads to the report of its "
-                                   "scenario, a margin to its check.</p>\n");
     cz_table_begin(&table, "criterion");
     table.class_name = "matrix cards";
-    for (int k = 0; k < matrix->n_column; k++) {
+    for (int k = columns->begin; k < columns->end; k++) {
         char head[CZ_LABEL_ROOM];
         snprintf(head, sizeof head, ">%.*s", (int)sizeof head - 2, matrix->column[k].name);
         cz_table_head(&table, head);
     }
-    if (page->deciding != NULL)
+    if (columns->has_figures)
         cz_table_head(&table, "deciding figure");
-    put_verdicts(&table, page);
+    put_verdicts(&table, page, columns);
     for (int row = 0; row < matrix->n_row; row++)
-        put_row(&table, page, row);
+        put_row(&table, page, columns, row);
     cz_table_write_page(&table, &page->markup);
+}
+
+void cz_page_write_matrix(CzPage *page) {
+    enum { MOST_ACROSS = 16 }; /* more are in further tables */
+    if (!cz_page_has_matrix(page))
+        return;
+    const int n_column = page->matrix->n_column;
+    cz_markup_write(&page->markup, "<section id='matrix'>\n<h2>Criteria and scenarios</h2>\n"
+                                   "<p>" CZ_MATRIX_SIGNS " A verdict leads to the report of its "
+                                   "scenario, a margin to its check.</p>\n");
+    for (int k = 0; k < n_column; k += MOST_ACROSS) {
+        Columns columns = {.begin = k, .end = k + MOST_ACROSS};
+        columns.end = columns.end < n_column ? columns.end : n_column;
+        columns.has_figures = page->deciding != NULL && columns.end == n_column;
+        write_columns(page, &columns);
+    }
     cz_markup_write(&page->markup, "</section>\n");
 }
 

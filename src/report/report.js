@@ -1,6 +1,16 @@
 /* All figures show the same time: a cursor in every plot, the values at the cursor, and the animation. */
 (function () {
   'use strict';
+  /* A link to a check of a folded table unfolds it. */
+  function unfold() {
+    var target = document.getElementById(location.hash.slice(1));
+    if (!target || !target.closest('details')) return;
+    target.closest('details').open = true;
+    target.scrollIntoView();
+  }
+  addEventListener('hashchange', unfold);
+  unfold();
+
   var source = document.getElementById('data');
   if (!source) return;
   var raw = JSON.parse(source.textContent), data = {}, decimals = {};

@@ -379,6 +379,14 @@ async function lookAtSet(browser, folder) {
   await check(`${set}: it is smaller than 1 MB`, () => (fs.statSync(file).size <= 1e6 ? '' : `${fs.statSync(file).size} bytes`));
   await check(`${set}: the matrix is that of the checks`, () => matrixIsThatOfChecks(page, folder));
   await check(`${set}: every link leads to a check, a figure or the report of a scenario`, () => linksLead(page, file));
+  await check(`${set}: a margin leads to its check, also in a folded table`, async () => {
+    const target = await page.evaluate(() => Array.from(document.querySelectorAll('table.matrix a[href^="#check-"]'))
+      .map(link => link.getAttribute('href').slice(1)).find(id => document.getElementById(id).closest('details')));
+    if (!target || await page.locator(`#${target}`).isVisible()) return `${target} is not folded`;
+    await page.locator(`table.matrix a[href="#${target}"]`).first().click();
+    await page.waitForTimeout(100);
+    return await page.locator(`#${target}`).isVisible() ? '' : `${target} stays hidden`;
+  });
   await check(`${set}: links of a scenario's report lead somewhere, too`, async () => {
     const other = path.join(folder, 'slow', 'report.html'), below = await open(browser, other);
     return linksLead(below, other);

@@ -183,7 +183,7 @@ check "a figure that cannot be written is reported" no_room
 json_of() { "$BUILD/tests/read_json" "$1" "$2"; }
 told_when() { # the check of the largest force reports the time of the interface's peak, in JSON and in the table
     at=$(json_of first/summary.json checks.0.from_ms) && [ "$at" = "$(json_of first/summary.json scenarios.0.interfaces.2.peak_time_ms)" ] &&
-        [ "$at" = "$(json_of first/summary.json checks.0.to_ms)" ] && grep -q "<td class=\"number\">$(printf %.0f "$at")<" first/report.html
+        [ "$at" = "$(json_of first/summary.json checks.0.to_ms)" ] && grep -q "<td class=\"number\" data-head=\"when ms\">$(printf %.0f "$at")<" first/report.html
 }
 check "a check has the time of its value" told_when
 window() { # a mean over 120 ms or more has a begin and an end that far apart

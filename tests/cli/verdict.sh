@@ -252,7 +252,7 @@ else
 fi
 written() {
     "$C" run three.yaml --junit one.xml -o out -q >out.txt; "$C" run three.yaml --junit two.xml -j 1 -o out -q >out.txt
-    cmp one.xml two.xml && exits 4 "$C" check elastic.yaml --junit nowhere/one.xml && exits 4 "$C" check elastic.yaml --junit out/summary.json && ! says err.txt 'results in' && says err.txt 'is a result of crushzone'
+    cmp one.xml two.xml && exits 4 "$C" check elastic.yaml --junit nowhere/one.xml && exits 2 "$C" check elastic.yaml --junit - && exits 4 "$C" check elastic.yaml --junit out/summary.json && ! says err.txt 'results in' && says err.txt 'is a result of crushzone'
 }
 check "a JUnit document is the same every time, and does not replace a result" written
 finish

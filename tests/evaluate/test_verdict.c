@@ -48,6 +48,36 @@ static void checks_that_were_not_asked_for_do_not_count(void **state) {
     assert_int_equal(cz_verdict_over(&evaluation, 1, b), CZ_VERDICT_FAIL);
 }
 
+static void a_scenario_is_judged_by_its_own_checks(void **state) {
+    (void)state;
+    CzCheckResult check[] = {
+        {.name = "a", .scenario = "one", .verdict = CZ_VERDICT_PASS},
+        {.name = "a", .scenario = "two", .family = "both", .verdict = CZ_VERDICT_FAIL},
+        {.name = "a", .scenario = "three", .family = "both", .verdict = CZ_VERDICT_PASS},
+        {.name = "a", .scenario = "four", .verdict = CZ_VERDICT_NOT_CHECKED, .has_no_run = true},
+        {.name = "a", .scenario = "five", .verdict = CZ_VERDICT_PASS, .beyond_validity = true}};
+    const CzEvaluation evaluation = {.n_check = 5, .check = check, .beyond_validity = true};
+    assert_int_equal(cz_verdict_in(&evaluation, "one"), CZ_VERDICT_PASS);
+    assert_int_equal(cz_verdict_in(&evaluation, "two"), CZ_VERDICT_FAIL);
+    assert_int_equal(cz_verdict_in(&evaluation, "both"), CZ_VERDICT_FAIL);
+    assert_int_equal(cz_verdict_in(&evaluation, "three"), CZ_VERDICT_PASS);
+    assert_int_equal(cz_verdict_in(&evaluation, "four"), CZ_VERDICT_NOT_CHECKED);
+    assert_int_equal(cz_verdict_in(&evaluation, "five"), CZ_VERDICT_FAIL);
+    assert_int_equal(cz_verdict_in(&evaluation, "six"), CZ_VERDICT_NOT_CHECKED);
+}
+
+static void a_pass_is_one_by_screening_while_requirements_are_not_covered(void **state) {
+    (void)state;
+    for (int verdict = 0; verdict < 4; verdict++)
+        for (int n = 0; n < 3; n++) {
+            const bool passes = verdict == CZ_VERDICT_PASS || verdict == CZ_VERDICT_PROVISIONAL;
+            const char *text = cz_verdict_words((CzVerdict)verdict, n);
+            assert_int_equal(cz_verdict_is_screening((CzVerdict)verdict, n), passes && n > 0);
+            assert_int_equal(strstr(text, "(screening)") != NULL, passes && n > 0);
+            assert_int_equal(strncmp(text, words[verdict], strlen(words[verdict])), 0);
+        }
+}
+
 static void the_worst_check_is_the_one_that_decides(void **state) {
     (void)state;
     const CzCheckResult in_order[] = {
@@ -69,6 +99,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_combination_of_checks_follows_one_rule),
         cmocka_unit_test(checks_that_were_not_asked_for_do_not_count),
+        cmocka_unit_test(a_scenario_is_judged_by_its_own_checks),
+        cmocka_unit_test(a_pass_is_one_by_screening_while_requirements_are_not_covered),
         cmocka_unit_test(the_worst_check_is_the_one_that_decides)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -126,8 +126,8 @@ static void derive_constants(const CzParameters *parameter, CzConstants *constan
 /* Constants that depend on the car ahead of each lane. */
 static void derive_ahead(const CzLanes *lanes, CzConstants *constant, size_t base) {
     for (size_t i = 0; i < CZ_LANE_BLOCK; ++i)
-        constant->slaved_ends_ahead[i] = *cz_lane_parameter(lanes, CZ_PARAMETER(slaved_ends),
-                                                            base + i + (size_t)lanes->n_design);
+        constant->slaved_end_ahead[i] = *cz_lane_parameter(lanes, CZ_PARAMETER(slaved_ends[0]),
+                                                           base + i + (size_t)lanes->n_design);
 }
 
 static int changes_a_lane(const double *slope_change) {

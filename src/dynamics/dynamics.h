@@ -39,7 +39,7 @@ typedef struct CzConstants {
     CzRow grip_compliance;          /* 1 / vertical stiffness of engaged faces [m/N] */
     CzRow body_mass;                /* 0 of a vehicle that cannot move [kg] */
     CzRow wheelset_inertia;         /* about its axle; 0 without wheels [kg m2] */
-    CzRow slaved_ends_ahead; /* 1 where the ends of the car ahead have no mass of their own */
+    CzRow slaved_end_ahead; /* 1 where the rear end of the car ahead has no mass of its own */
 } CzConstants;
 #define CZ_CONSTANT(member) CZ_ROW_OF(CzConstants, member)
 

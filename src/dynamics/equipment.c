@@ -28,6 +28,9 @@ CzInterfaceEquipment cz_interface_equipment(const CzLanes *lanes, size_t lane) {
             of.has_couplers && coupler->side[side].buffer.transition[i] <= CZ_MISSING;
         of.side[side].has_side_buffers =
             of.has_side_buffers && side_buffers->side[side].buffer.transition[i] <= CZ_MISSING;
+        of.side[side].presses_plates =
+            of.has_side_buffers && !of.side[side].has_side_buffers &&
+            lanes->curve[CZ_CURVE(side_tube[side])].start[lane] <= CZ_MISSING;
         of.side[side].has_anti_climber =
             lanes->curve[CZ_CURVE(face[side])].start[lane] <= CZ_MISSING;
         of.side[side].shears_off = of.has_couplers && coupler->side[side].shear.force[i] < CZ_NEVER;
@@ -63,7 +66,7 @@ CzCarEquipment cz_car_equipment(const CzLanes *lanes, size_t lane) {
     const CzDragRows *drag = &at.rows->drag;
     const size_t i = at.i;
     return (CzCarEquipment){
-        .has_slaved_ends = at.rows->slaved_ends[i] > 0.5,
+        .has_slaved_end = {at.rows->slaved_ends[0][i] > 0.5, at.rows->slaved_ends[1][i] > 0.5},
         .is_held = wheel->brake_moment[0][i] > 0.0 || wheel->brake_moment[3][i] > 0.0 ||
                    drag->brake[i] > 0.0 || drag->slide[i] > 0.0,
         .slowing = slowing_of(lanes, lane),

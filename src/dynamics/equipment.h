@@ -19,6 +19,7 @@ typedef struct CzInterfaceEquipment {
     double friction; /* of the faces [-] */
     struct {
         bool has_coupler, has_anti_climber, has_side_buffers; /* on this side */
+        bool presses_plates; /* its anti-climber, on the side buffers of the other side */
         bool shears_off;
         bool has_massless_end;
         double retraction_space; /* includes the softening length of the shear-off; CZ_NEVER if none
@@ -33,7 +34,7 @@ CzInterfaceEquipment cz_interface_equipment(const CzLanes *lanes, size_t lane);
 
 /* Equipment of the car in a lane. */
 typedef struct CzCarEquipment {
-    bool has_slaved_ends;        /* they move with the body */
+    bool has_slaved_end[2];      /* rear and front: it moves with the body */
     bool is_held;                /* by brakes or friction jaws */
     double slowing;              /* largest deceleration by brakes and rolling resistance; infinite
                                     with friction jaws [m/s2] */

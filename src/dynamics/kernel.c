@@ -63,28 +63,26 @@ static void divide_along(CzBlock *d) {
     const double *restrict adhesion = d->published.adhesion;
     double *restrict external = d->impulse.force;
     CZ_LANES (i) {
-        const double slaved = rows->slaved_ends[i], inverse = rows->inverse.body.mass[i];
+        const double slaved_rear = rows->slaved_ends[0][i], slaved_front = rows->slaved_ends[1][i];
+        const double inverse = rows->inverse.body.mass[i];
         const double rear = force->end[0].x[i], front = force->end[1].x[i];
-        const double handed = slaved * (rear + front);
+        const double handed = slaved_rear * rear + slaved_front * front;
         const double total = force->body.x[i] + handed;
         const double a = total * inverse;
         acceleration->body.x[i] = a;
         acceleration->end[0].x[i] =
-            slaved * a + (1.0 - slaved) * rear * rows->inverse.end[0].mass[i];
+            slaved_rear * a + (1.0 - slaved_rear) * rear * rows->inverse.end[0].mass[i];
         acceleration->end[1].x[i] =
-            slaved * a + (1.0 - slaved) * front * rows->inverse.end[1].mass[i];
+            slaved_front * a + (1.0 - slaved_front) * front * rows->inverse.end[1].mass[i];
         external[i] = adhesion[i] - (inverse > 0.0 ? 0.0 : total);
     }
 }
 
-/* Vertical acceleration of bodies; bodies with slaved ends move along the track only. */
-static void divide_up(CzBlock *d) {
-    const double *restrict slaved = d->parameter.slaved_ends, *restrict inverse =
-                                                                  d->parameter.inverse.body.mass;
-    const double *restrict force = d->force.body.z;
-    double *restrict acceleration = d->acceleration.body.z;
+/* Vertical acceleration of a body or an end mass; those of rigid cars move along the track only. */
+static void divide_up(const double *restrict rises, const double *restrict force,
+                      const double *restrict inverse, double *restrict acceleration) {
     CZ_LANES (i) {
-        acceleration[i] = (1.0 - slaved[i]) * force[i] * inverse[i];
+        acceleration[i] = rises[i] * force[i] * inverse[i];
     }
 }
 
@@ -93,10 +91,10 @@ static void divide_full(CzBlock *d) {
     const CzState *force = &d->force;
     CzState *a = &d->acceleration;
     const CzParameters *rows = &d->parameter;
-    divide_up(d);
+    divide_up(rows->rises, force->body.z, rows->inverse.body.mass, a->body.z);
     divide(force->body.pitch, rows->inverse.body.inertia_pitch, a->body.pitch);
     for (int k = 0; k < 2; ++k) {
-        divide(force->end[k].z, rows->inverse.end[k].mass, a->end[k].z);
+        divide_up(rows->rises, force->end[k].z, rows->inverse.end[k].mass, a->end[k].z);
         divide(force->end[k].pitch, rows->inverse.end[k].inertia_pitch, a->end[k].pitch);
         divide(force->bogie[k].x, rows->inverse.bogie.mass, a->bogie[k].x);
         divide(force->bogie[k].z, rows->inverse.bogie.mass, a->bogie[k].z);

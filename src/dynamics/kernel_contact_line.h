@@ -81,16 +81,16 @@ static void put_contact(CzPlane *on_a, CzPlane *on_b, Contact *restrict contact,
 
 /* Forces on ends without mass pass directly into the body's section. */
 static void put_into_sections(CzBlock *d, const Contact *contact) {
-    add(d->published.section[1], d->parameter.slaved_ends, contact->force_x);
-    add(d->pushed.section, d->constant.slaved_ends_ahead, contact->force_x);
+    add(d->published.section[1], d->parameter.slaved_ends[1], contact->force_x);
+    add(d->pushed.section, d->constant.slaved_end_ahead, contact->force_x);
 }
 
 /* Drop of the force at the interface and in sections without end mass, in a step in which the force
  * of a chain fell; `normal` is the normal force of the element, `top` becomes its largest. */
 static void put_drop(CzBlock *d, const Contact *restrict contact, const ChainState *restrict now,
                      const double *restrict normal, double *restrict top) {
-    const double *restrict slaved = d->parameter.slaved_ends, *restrict slaved_ahead =
-                                                                  d->constant.slaved_ends_ahead;
+    const double *restrict slaved = d->parameter.slaved_ends[1], *restrict slaved_ahead =
+                                                                     d->constant.slaved_end_ahead;
     double *restrict drop = d->published.interface.drop,
                      *restrict section = d->published.section[1],
                      *restrict pushed = d->pushed.section;

@@ -10,8 +10,10 @@
 /* Comes after all other forces, because a car at rest is held against their sum. */
 static void drag(CzBlock *d) {
     const CzDragRows *restrict rows = &d->parameter.drag;
-    const double *restrict mass = d->constant.body_mass, *restrict slaved =
-                                                             d->parameter.slaved_ends;
+    const double *restrict mass = d->constant.body_mass;
+    const double *restrict slaved_rear = d->parameter.slaved_ends[0], *restrict slaved_front =
+                                                                          d->parameter
+                                                                              .slaved_ends[1];
     const double *restrict fall = d->parameter.wheel.friction_fall_speed;
     const double *restrict x = d->position.body.x, *restrict v = d->velocity.body.x;
     const double *restrict rear = d->force.end[0].x, *restrict front = d->force.end[1].x;
@@ -20,7 +22,8 @@ static void drag(CzBlock *d) {
     CzPower *restrict power = d->power;
     CZ_LANES (i) {
         const double stop = cz_stop(rows->slide_stiffness[i], rows->slide_length[i], x[i]);
-        const double pushed = body[i] + slaved[i] * (rear[i] + front[i]) - stop;
+        const double handed = slaved_rear[i] * rear[i] + slaved_front[i] * front[i];
+        const double pushed = body[i] + handed - stop;
         const double brakes =
             cz_brake_capacity(rows->brake[i], rows->brake_sliding[i], fall[i], v[i]);
         const double capacity = brakes + rows->rolling[i] + rows->slide[i];

@@ -90,40 +90,44 @@ static Path coupler_path(const CzLanes *lanes, int interface) {
     return path;
 }
 
+static bool has_end_mass(const CzLanes *lanes, int interface, int side) {
+    const CzLane at = cz_lane_at(lanes, (size_t)(interface + side));
+    return at.rows->slaved_ends[1 - side][at.i] < 0.5;
+}
+
 /* A path of two members on each side, and of the crush zones behind them. */
-static Path contact_path(const CzModel *model, const CzLanes *lanes, int interface,
-                         double starts_at, const CzCurveId member[4]) {
+static Path contact_path(const CzLanes *lanes, int interface, double starts_at,
+                         const CzCurveId member[4]) {
     Path path = path_of(lanes);
     path.starts_at = starts_at;
     for (int k = 0; k < 4; k++)
         add(&path, member[k], (size_t)interface);
     for (int side = 0; side < 2; side++)
-        if (model->car[interface + side].model == CZ_MODEL_FULL)
+        if (has_end_mass(lanes, interface, side))
             add_end(&path, interface, side);
     return path;
 }
 
-static Path face_path(const CzModel *model, const CzLanes *lanes, int interface) {
+static Path face_path(const CzLanes *lanes, int interface) {
     static const CzCurveId member[] = {CZ_CURVE(face[0]), CZ_CURVE(massless[0]), CZ_CURVE(face[1]),
                                        CZ_CURVE(massless[1])};
     const CzLane at = cz_lane_at(lanes, (size_t)interface);
-    return contact_path(model, lanes, interface, at.rows->face.contact.distance[at.i], member);
+    return contact_path(lanes, interface, at.rows->face.contact.distance[at.i], member);
 }
 
-static Path side_path(const CzModel *model, const CzLanes *lanes, int interface) {
+static Path side_path(const CzLanes *lanes, int interface) {
     static const CzCurveId member[] = {CZ_CURVE(side_buffer[0]), CZ_CURVE(side_tube[0]),
                                        CZ_CURVE(side_buffer[1]), CZ_CURVE(side_tube[1])};
     const CzLane at = cz_lane_at(lanes, (size_t)interface);
     if (at.rows->side_buffers.exists[at.i] < 0.5)
         return path_of(lanes);
-    return contact_path(model, lanes, interface, at.rows->side_buffers.contact.distance[at.i],
-                        member);
+    return contact_path(lanes, interface, at.rows->side_buffers.contact.distance[at.i], member);
 }
 
-void cz_slow_closing(const CzModel *model, const CzLanes *lanes, int interface, double longest,
-                     int n, double *closure, double *force) {
-    Path path[3] = {coupler_path(lanes, interface), face_path(model, lanes, interface),
-                    side_path(model, lanes, interface)};
+void cz_slow_closing(const CzLanes *lanes, int interface, double longest, int n, double *closure,
+                     double *force) {
+    Path path[3] = {coupler_path(lanes, interface), face_path(lanes, interface),
+                    side_path(lanes, interface)};
     const double step = longest / (n - 1);
     for (int i = 0; i < n; i++) {
         closure[i] = i * step;

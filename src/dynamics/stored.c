@@ -183,7 +183,7 @@ static void fill_end(const CzDynamics *dynamics, size_t lane, int end, CzCrushEn
     const CzBlock *d = cz_block_of(dynamics, lane);
     const size_t i = lane % CZ_LANE_BLOCK;
     const CzVehicleEndLaw law = cz_crush_at(&d->parameter.end[end].crush, i);
-    if (d->parameter.slaved_ends[i] < 0.5)
+    if (d->parameter.slaved_ends[end][i] < 0.5)
         fill_crush(&dynamics->lanes->curve[CZ_CURVE(end[end])], lane, &law,
                    d->published.end[end].stroke[i], d->memory->end[end].peak[i], energy);
 }

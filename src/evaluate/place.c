@@ -145,6 +145,14 @@ static void visit_sections(Walk *walk, bool is_colliding) {
     }
 }
 
+/* Whether an interface of the scene is skipped: one between vehicles of an obstacle is not judged
+ * unless it is named. */
+static bool is_within_obstacle(const Walk *walk, int interface, const char *name) {
+    const CzScene *scene = walk->subject->scene;
+    return cz_scene_has_obstacle_at(scene, interface) &&
+           cz_scene_has_obstacle_at(scene, interface + 1) && strcmp(walk->selector, name) != 0;
+}
+
 static void visit_interfaces(Walk *walk) {
     const CzRunSummary *run = walk->subject->run;
     for (int i = 0; i < run->n_interface; i++) {
@@ -155,7 +163,8 @@ static void visit_interfaces(Walk *walk) {
             visit_elements(walk, is_colliding);
         } else if (walk->level == CZ_LEVEL_SECTION) {
             visit_sections(walk, is_colliding);
-        } else if (picks_interface(walk->selector, run->interface[i].name, is_colliding)) {
+        } else if (picks_interface(walk->selector, run->interface[i].name, is_colliding) &&
+                   !is_within_obstacle(walk, i, run->interface[i].name)) {
             walk->place.must_declare = record_of(walk->subject, i)->model == CZ_MODEL_FULL ||
                                        record_of(walk->subject, i + 1)->model == CZ_MODEL_FULL;
             call(walk, run->interface[i].name);

@@ -25,21 +25,28 @@ static void size_side(CzModel *model, const CzEnd *end, int side) {
         need(model, CZ_CURVE(second_tube[side]), in_tube(&coupler->second_tube));
     }
     const CzAntiClimber *anti_climber = &end->anti_climber;
-    if (anti_climber->given)
-        need(model, CZ_CURVE(face[side]),
-             cz_breakpoints_in_strength(anti_climber->n_stages, &anti_climber->curve));
+    if (anti_climber->given) {
+        const int n = cz_breakpoints_in_strength(anti_climber->n_stages, &anti_climber->curve);
+        need(model, CZ_CURVE(face[side]), n);
+        if (anti_climber->in_line_with_buffers)
+            need(model, CZ_CURVE(side_tube[side]), n);
+    }
     if (end->side_buffers.given) {
         need(model, CZ_CURVE(side_buffer[side]), in_buffer(&end->side_buffers.buffer));
         need(model, CZ_CURVE(side_tube[side]), in_tube(&end->side_buffers.tube));
     }
 }
 
-static void size_end(CzModel *model, const CzEnd *end, int which, bool is_full) {
+static void size_end(CzModel *model, const CzVehicle *vehicle, int which) {
+    const CzEnd *end = cz_end_of(vehicle, which);
     if (!cz_end_crushes(end))
         return;
     const int side = which == CZ_FRONT ? CZ_SIDE_A : CZ_SIDE_B;
     const int n_breakpoint = cz_breakpoints_in_loading(end->n_stages, &end->curve);
-    need(model, is_full ? CZ_CURVE(end[which]) : CZ_CURVE(massless[side]), n_breakpoint);
+    if (cz_end_mass(vehicle, end) > 0.0)
+        need(model, CZ_CURVE(end[which]), n_breakpoint);
+    if (vehicle->model != CZ_MODEL_FULL)
+        need(model, CZ_CURVE(massless[side]), n_breakpoint);
 }
 
 void cz_model_size_curves(CzModel *model, const CzVehicle *vehicles) {
@@ -52,12 +59,11 @@ void cz_model_size_curves(CzModel *model, const CzVehicle *vehicles) {
         need(model, springs[i], 1);
     for (int car = 0; car < model->n_car; car++) {
         const CzVehicle *vehicle = &vehicles[model->car[car].vehicle];
-        const bool is_full = model->car[car].model == CZ_MODEL_FULL;
         for (int which = CZ_REAR; which <= CZ_FRONT; which++) {
             const CzEnd *end = cz_end_of(vehicle, which);
             if (!end->given)
                 continue;
-            size_end(model, end, which, is_full);
+            size_end(model, vehicle, which);
             size_side(model, end, which == CZ_FRONT ? CZ_SIDE_A : CZ_SIDE_B);
         }
     }

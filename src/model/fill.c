@@ -224,6 +224,35 @@ CzStatus cz_fill_end(const CzFill *fill, CzPartName part, const CzEnd *end, CzCu
     return fill_curve(fill, part, end, id, &breakpoints);
 }
 
+/* ---- end masses ---- */
+
+CzOffsets cz_fill_offsets(const CzModel *model, int interface) {
+    const CzInput *input = cz_problem_input(model->problem);
+    const CzScenario *scenario = model->scenario;
+    const double ahead = input->trains[model->train[1]].height_offset;
+    if (interface == model->colliding)
+        return (CzOffsets){{input->trains[model->train[0]].height_offset,
+                            isnan(scenario->height_offset) ? ahead : scenario->height_offset}};
+    return (CzOffsets){{0.0, interface == model->perturbed ? scenario->perturbation : 0.0}};
+}
+
+double cz_fill_end_mass(const CzFill *fill, int car, int which) {
+    const CzVehicle *vehicle = cz_fill_vehicle(fill, car);
+    const CzEnd *end = cz_end_of(vehicle, which);
+    const double mass = cz_end_mass(vehicle, end);
+    const int other = which == CZ_FRONT ? car + 1 : car - 1;
+    if (vehicle->model == CZ_MODEL_FULL || mass == 0.0)
+        return mass;
+    if (other < 0 || other >= fill->model->n_car)
+        return 0.0;
+    const CzVehicle *opposite = cz_fill_vehicle(fill, other);
+    const CzOffsets offset = cz_fill_offsets(fill->model, which == CZ_FRONT ? car : other);
+    const int side = which == CZ_FRONT ? CZ_SIDE_A : CZ_SIDE_B;
+    const double rise =
+        opposite->model == CZ_MODEL_FULL ? offset.side[side] - offset.side[1 - side] : NAN;
+    return cz_end_is_struck(end, cz_end_of(opposite, 1 - which), rise) ? mass : 0.0;
+}
+
 /* ---- all cars ---- */
 
 CzStatus cz_model_fill(const CzModel *model, const CzVehicle *vehicles, int design, CzLanes *lanes,

@@ -4,6 +4,7 @@
 
 #include "model/breakpoints.h"
 #include "model/model.h"
+#include "problem/meeting.h"
 
 /* The two ends of a car; also the two sides of an interface: side A is a front end, B a rear end.
  */
@@ -76,6 +77,16 @@ CZ_MUST_CHECK CzStatus cz_fill_statics(const CzFill *fill, int car, CzStatics *s
 CZ_MUST_CHECK CzStatus cz_fill_car(const CzFill *fill, int car, const CzStatics *statics);
 CZ_MUST_CHECK CzStatus cz_fill_interface(const CzFill *fill, int interface, const CzStatics *behind,
                                          const CzStatics *ahead);
+
+/* Heights by which the scenario raises the two cars of an interface [m]. */
+typedef struct CzOffsets {
+    double side[2];
+} CzOffsets;
+CzOffsets cz_fill_offsets(const CzModel *model, int interface);
+
+/* Mass in front of the crush zone of an end of a car, on which its parts act [kg]; 0: it moves with
+ * the body. */
+double cz_fill_end_mass(const CzFill *fill, int car, int which);
 
 static inline double cz_second_unloading(const CzEnd *end) {
     return isnan(end->second_unloading_stiffness) ? end->unloading_stiffness

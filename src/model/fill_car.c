@@ -68,40 +68,58 @@ void cz_fill_crush(CzCrushRows *rows, size_t i, const CzEnd *end) {
     rows->damping[i] = end->damping;
 }
 
-/* Guidance across the crush zone, and against pitching. */
-static void fill_guidance(CzEndRows *rows, size_t i, const CzEnd *end) {
+/* Guidance of an end mass across the crush zone, and against pitching. */
+static void fill_guidance(CzEndRows *rows, size_t i, const CzEnd *end, double mass) {
     const bool z_locked = end->vertical == CZ_GUIDANCE_LOCKED;
     const bool pitch_locked = end->pitch == CZ_GUIDANCE_LOCKED;
     const double square = LOCKED_FREQUENCY * LOCKED_FREQUENCY;
-    const double guide = z_locked ? end->mass * square : end->vertical_stiffness;
+    const double guide = z_locked ? mass * square : end->vertical_stiffness;
     const double fold = pitch_locked ? end->pitch_inertia * square : end->pitch_stiffness;
     rows->guide_vertical.stiffness[i] = guide;
-    rows->guide_vertical.damping[i] = 2.0 * GUIDE_DAMPING * sqrt(guide * end->mass);
+    rows->guide_vertical.damping[i] = 2.0 * GUIDE_DAMPING * sqrt(guide * mass);
     rows->fold_pitch.stiffness[i] = fold;
     rows->fold_pitch.damping[i] =
         pitch_locked ? 2.0 * GUIDE_DAMPING * sqrt(fold * end->pitch_inertia) : end->pitch_damping;
     rows->fold_pitch.moment[i] = pitch_locked ? CZ_NEVER : end->hinge_moment;
 }
 
-static CzStatus fill_crush_zone(const Car *car, int which) {
+/* Crush zone between body and end mass. */
+static CzStatus fill_zone(const Car *car, int which, double mass) {
     const CzEnd *end = cz_end_of(car->vehicle, which);
     const CzCurveId backbone = CZ_CURVE(end[which]);
     CzEndRows *rows = &car->rows->end[which];
-    CzInverse *divisor = &car->rows->inverse.end[which];
     const size_t i = car->i;
-    divisor->mass[i] = 1.0 / end->mass;
-    divisor->inertia_pitch[i] = inverse(end->pitch_inertia);
+    car->rows->inverse.end[which].mass[i] = 1.0 / mass;
+    car->rows->slaved_ends[which][i] = 0.0;
+    CZ_TRY(cz_fill_end(car->fill, (CzPartName){car->car, which, car->car, "end"}, end, backbone));
+    cz_fill_crush(&rows->crush, i, end);
+    rows->crush.tension[i] =
+        cz_curve_slope(&car->fill->lanes->curve[backbone], cz_fill_lane(car->fill, car->car), 0.0);
+    return CZ_OK;
+}
+
+static CzStatus fill_crush_zone(const Car *car, int which) {
+    const CzEnd *end = cz_end_of(car->vehicle, which);
+    CzEndRows *rows = &car->rows->end[which];
+    const size_t i = car->i;
+    car->rows->inverse.end[which].inertia_pitch[i] = inverse(end->pitch_inertia);
     put_plane(car, &car->block->mass.end[which], &car->block->velocity.end[which], end->mass,
               end->pitch_inertia);
     rows->x[i] = which == CZ_REAR ? -end->distance : end->distance;
     rows->body_z[i] = end->crush_height - car->vehicle->cg_height;
     rows->mass_z[i] = end->crush_height - end->cg_height;
-    CZ_TRY(cz_fill_end(car->fill, (CzPartName){car->car, which, car->car, "end"}, end, backbone));
-    cz_fill_crush(&rows->crush, i, end);
-    rows->crush.tension[i] =
-        cz_curve_slope(&car->fill->lanes->curve[backbone], cz_fill_lane(car->fill, car->car), 0.0);
-    fill_guidance(rows, i, end);
-    return CZ_OK;
+    fill_guidance(rows, i, end, end->mass);
+    return fill_zone(car, which, end->mass);
+}
+
+/* Crush zone of a rigid car in front of which its end has a mass, which moves along the track. */
+static CzStatus fill_rigid_zone(const Car *car, int which) {
+    const double mass = cz_fill_end_mass(car->fill, car->car, which);
+    if (mass == 0.0)
+        return CZ_OK;
+    car->fill->lanes->has.full_cars = 1;
+    car->block->mass.end[which].x[car->i] = mass;
+    return fill_zone(car, which, mass);
 }
 
 /* ---- running gear ---- */
@@ -267,16 +285,18 @@ CzStatus cz_fill_car(const CzFill *fill, int number, const CzStatics *statics) {
         car.place->speed;
     if (car.place->model == CZ_MODEL_FULL) {
         fill->lanes->has.full_cars = 1;
-        block->parameter.slaved_ends[i] = 0.0;
+        block->parameter.rises[i] = 1.0;
         put_plane(&car, &block->mass.body, &block->velocity.body, statics->body_mass,
                   statics->body_inertia);
         CZ_TRY(fill_crush_zone(&car, CZ_REAR));
         CZ_TRY(fill_crush_zone(&car, CZ_FRONT));
         fill_bogies(&car);
         fill_wheels(&car);
-    } else if (car.place->model == CZ_MODEL_RIGID)
+    } else if (car.place->model == CZ_MODEL_RIGID) {
         fill_drag(&car);
-    else
+        CZ_TRY(fill_rigid_zone(&car, CZ_REAR));
+        CZ_TRY(fill_rigid_zone(&car, CZ_FRONT));
+    } else
         fill_slide(&car);
     return CZ_OK;
 }

@@ -40,7 +40,8 @@ static void set_neutral(CzParameters *rows) {
     set_neutral_pairs(rows);
     set_neutral_suspension(&rows->secondary);
     set_neutral_suspension(&rows->primary);
-    set(rows->slaved_ends, 1.0);
+    set(rows->slaved_ends[0], 1.0);
+    set(rows->slaved_ends[1], 1.0);
     set(rows->wheel.radius, 1.0);
     set(rows->wheel.creep_length, 1.0);
     set(rows->wheel.friction_fall_speed, 1.0);

@@ -55,9 +55,9 @@ typedef struct CzLaneBlock {
 /* What some interface or car has: the kernel leaves out everything else. */
 typedef struct CzLanesHave {
     bool side_buffers, superstructures, draw_gears, couplers;
-    bool full_cars;
-    bool rolling; /* wheelsets with rolling resistance */
-    bool drag;    /* cars without running gear that the track brakes */
+    bool full_cars; /* or rigid ones with masses at their ends */
+    bool rolling;   /* wheelsets with rolling resistance */
+    bool drag;      /* cars without running gear that the track brakes */
 } CzLanesHave;
 
 typedef struct CzLanes {

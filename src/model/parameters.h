@@ -191,7 +191,8 @@ typedef struct CzParameters {
     struct {
         CzInverse body, end[2], bogie, wheelset;
     } inverse;
-    CzRow slaved_ends; /* 1 when the ends have no mass of their own and move with the body */
+    CzRow slaved_ends[2]; /* 1 when an end has no mass of its own and moves with the body */
+    CzRow rises;          /* 1 when the body moves vertically */
     CzEndRows end[2];
     CzRow bogie_x; /* half the bogie spacing [m] */
     CzRow axle_x;  /* half the axle spacing [m] */

@@ -4,6 +4,7 @@ set(CZ_SOURCES_model
     critical_force.c
     curve_sizes.c
     properties.c
+    ends.c
     fill.c
     fill_car.c
     fill_interface.c

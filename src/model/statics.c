@@ -115,10 +115,12 @@ CzStatus cz_fill_statics(const CzFill *fill, int car, CzStatics *statics) {
         return full_statics(fill, car, vehicle, statics);
 
     const CzScenario *scenario = fill->model->scenario;
-    statics->body_mass = vehicle->mass * scenario->mass_factor +
+    const double ends =
+        cz_fill_end_mass(fill, car, CZ_REAR) + cz_fill_end_mass(fill, car, CZ_FRONT);
+    statics->body_mass = (vehicle->mass - ends) * scenario->mass_factor +
                          vehicle->payload * scenario->payload_share +
                          absorber_mass(&vehicle->rear) + absorber_mass(&vehicle->front);
-    statics->mass = statics->body_mass;
+    statics->mass = statics->body_mass + ends;
     statics->weight = statics->mass * CZ_GRAVITY;
     return CZ_OK;
 }

@@ -186,10 +186,10 @@ static Carriers carriers_of(const Car *car, bool a_on_end, bool b_on_end) {
     Carriers carriers;
     for (int side = CZ_SIDE_A; side <= CZ_SIDE_B; side++) {
         const CzLane own = cz_lane_at(car->lanes, (size_t)(car->car + side));
-        const CzInverse *inverse =
-            on_end[side] && own.rows->slaved_ends[own.i] == 0.0
-                ? &own.rows->inverse.end[side == CZ_SIDE_A ? CZ_FRONT : CZ_REAR]
-                : &own.rows->inverse.body;
+        const int end = side == CZ_SIDE_A ? CZ_FRONT : CZ_REAR;
+        const CzInverse *inverse = on_end[side] && own.rows->slaved_ends[end][own.i] == 0.0
+                                       ? &own.rows->inverse.end[end]
+                                       : &own.rows->inverse.body;
         carriers.side[side].inverse_mass = inverse->mass[own.i];
         carriers.side[side].inverse_inertia = inverse->inertia_pitch[own.i];
     }
@@ -356,10 +356,11 @@ CzStatus cz_model_find_bounds(CzModel *model, const CzLanes *lanes, CzError *err
         if (model->car[i].model == CZ_MODEL_FULL) {
             note_wheels(&car);
             note_bogies(&car);
-            note_end(&car, CZ_REAR);
-            note_end(&car, CZ_FRONT);
         } else
             note_drag(&car);
+        for (int end = CZ_REAR; end <= CZ_FRONT; end++)
+            if (at.rows->slaved_ends[end][at.i] == 0.0)
+                note_end(&car, end);
         if (i == model->n_car - 1)
             break;
         car.name = model->interface_name[i];

@@ -55,6 +55,25 @@ static bool is_struck_at_height(const Meeting *meeting) {
            has_levels(meeting);
 }
 
+static bool is_rigid_and_struck(const Meeting *meeting) {
+    return meeting->own->model == CZ_MODEL_RIGID &&
+           (is_struck_by(meeting, CZ_PART_COUPLER) || is_struck_by(meeting, CZ_PART_SIDE_BUFFERS));
+}
+
+static bool faces_buffers(const Meeting *meeting) {
+    return is_struck_by(meeting, CZ_PART_SIDE_BUFFERS) &&
+           !cz_end_has(meeting->opposite, CZ_PART_FACE);
+}
+
+static bool acts_as_face(const Meeting *meeting) {
+    return meeting->other != NULL &&
+           !(faces_buffers(meeting) && meeting->end->anti_climber.in_line_with_buffers);
+}
+
+static bool slides_as_face(const Meeting *meeting) {
+    return has_levels(meeting) && acts_as_face(meeting);
+}
+
 static bool has_bare_levels(const Meeting *meeting) {
     return has_levels(meeting) &&
            (!meeting->end->anti_climber.given || !isnan(meeting->end->face_height));
@@ -66,7 +85,8 @@ static bool has_faces(const Meeting *meeting) {
 
 static bool slides_bare(const Meeting *meeting) {
     return has_levels(meeting) &&
-           (!meeting->end->anti_climber.given || is_struck_by(meeting, CZ_PART_SIDE_BUFFERS));
+           (!meeting->end->anti_climber.given ||
+            (is_struck_by(meeting, CZ_PART_SIDE_BUFFERS) && acts_as_face(meeting)));
 }
 
 static bool has_superstructures(const Meeting *meeting) {

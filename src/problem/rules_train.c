@@ -50,6 +50,12 @@ void cz_rules_check_vehicle(const CzRules *rules, const CzVehicle *vehicle) {
                        cz_word_sets[CZ_WORDS_MODEL].word[vehicle->model].word);
     if (vehicle->model == CZ_MODEL_FULL)
         check_full_vehicle(rules, vehicle);
+    const double ends =
+        cz_end_mass(vehicle, &vehicle->front) + cz_end_mass(vehicle, &vehicle->rear);
+    if (vehicle->model == CZ_MODEL_RIGID && ends >= vehicle->mass)
+        cz_rule_broken(rules, &vehicle->mass,
+                       "no mass is left for the body: the ends have %s of %s",
+                       CZ_IN_UNIT(ends, "t", 1e3), CZ_IN_UNIT(vehicle->mass, "t", 1e3));
 }
 
 /* ---- trains ---- */
@@ -103,6 +109,31 @@ static void warn_of_passing(const CzRules *rules, const Facing *facing, CzPartKi
                     CZ_MM((is_over ? structure.high : structure.low) + facing->rise));
 }
 
+/* The strength of an anti-climber on plates does not depend on the closing speed. */
+static void warn_of_speed_factor(const CzRules *rules, const Facing *facing) {
+    const CzAntiClimber *device = &facing->end->anti_climber;
+    if (cz_end_has(facing->end, CZ_PART_FACE) && device->speed_factor != 0 &&
+        cz_part_meets(facing->end, CZ_PART_FACE, facing->opposite, facing->rise) == CZ_MEETS_PLATES)
+        cz_rule_warning(
+            rules, &device->speed_factor,
+            "the speed factor of '%.48s' has no effect on the force of its anti-climber "
+            "on the side buffers of '%.48s'",
+            name_of(facing->own->name), name_of(facing->other->name));
+}
+
+/* A crush zone of a rigid vehicle acts on couplers and side buffers through the mass in front of
+ * it. */
+static void warn_of_no_face_mass(const CzRules *rules, const Facing *facing) {
+    const CzEnd *end = facing->end;
+    if (end->given && facing->own->model == CZ_MODEL_RIGID &&
+        (end->n_stages > 0 || end->curve.given) && isnan(end->face_mass) &&
+        cz_end_is_struck(end, facing->opposite, -facing->rise))
+        cz_rule_warning(rules, end,
+                        "the crush zone of '%.48s' does not act on coupler and side buffers of "
+                        "'%.48s', because its end has no mass: face_mass_kg or face_mass_t",
+                        name_of(facing->own->name), name_of(facing->other->name));
+}
+
 /* The coupler of a rigid vehicle that meets a full one is part of a strut between two pivots. */
 static void check_strut(const CzRules *rules, const Facing *facing) {
     const CzCoupler *coupler = &facing->end->coupler;
@@ -146,6 +177,8 @@ static void check_neighbours(const CzRules *rules, const CzVehicle *behind, cons
     for (int i = 0; i < 2; i++) {
         for (int kind = 0; kind < CZ_N_PART; kind++)
             warn_of_passing(rules, &ends[i], (CzPartKind)kind);
+        warn_of_no_face_mass(rules, &ends[i]);
+        warn_of_speed_factor(rules, &ends[i]);
         check_strut(rules, &ends[i]);
     }
 }

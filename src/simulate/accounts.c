@@ -53,7 +53,7 @@ bool cz_has_element(const CzBatch *batch, size_t lane, int side, CzElementKind k
     case CZ_ELEMENT_COUPLER:
         return of->side[side].has_coupler;
     case CZ_ELEMENT_ANTI_CLIMBER:
-        return of->side[side].has_anti_climber;
+        return of->side[side].has_anti_climber || of->side[side].presses_plates;
     case CZ_ELEMENT_SIDE_BUFFERS:
         return of->side[side].has_side_buffers;
     case CZ_ELEMENT_SUPERSTRUCTURE:
@@ -68,6 +68,13 @@ bool cz_has_element(const CzBatch *batch, size_t lane, int side, CzElementKind k
 /* Share of one side in an element that both sides of an interface share. */
 static double half_of(const CzBatch *batch, size_t lane, int side, CzElementKind kind) {
     return cz_has_element(batch, lane, 1 - side, kind) ? 0.5 : 1.0;
+}
+
+/* The same for side buffers, on which an anti-climber may press. */
+static double half_of_plates(const CzBatch *batch, size_t lane, int side) {
+    return batch->equipment[lane].side[1 - side].presses_plates
+               ? 0.5
+               : half_of(batch, lane, side, CZ_ELEMENT_SIDE_BUFFERS);
 }
 
 /* An account of which all is stored. */
@@ -91,7 +98,7 @@ CzAccount cz_side_account(const CzBatch *batch, size_t lane, int side) {
                                stored->side_buffers[side]};
     const CzAccount sliding = {cz_work(batch, CZ_LEDGER(side_sliding), lane), stored->side_sliding};
     const CzAccount tubes = elastic(stored->side_tubes);
-    const double share = half_of(batch, lane, side, CZ_ELEMENT_SIDE_BUFFERS);
+    const double share = half_of_plates(batch, lane, side);
     return sum_of(members, share_of(share, sum_of(sliding, tubes)));
 }
 
@@ -110,8 +117,8 @@ CzAccount cz_anti_climber_account(const CzBatch *batch, size_t lane, int side) {
 }
 
 CzAccount cz_bare_faces_account(const CzBatch *batch, size_t lane) {
-    const bool bare = !cz_has_element(batch, lane, 0, CZ_ELEMENT_ANTI_CLIMBER) &&
-                      !cz_has_element(batch, lane, 1, CZ_ELEMENT_ANTI_CLIMBER);
+    const CzInterfaceEquipment *of = &batch->equipment[lane];
+    const bool bare = !of->side[0].has_anti_climber && !of->side[1].has_anti_climber;
     return bare ? faces_account(batch, lane) : (CzAccount){0.0, 0.0};
 }
 

@@ -57,9 +57,13 @@ static void put_face(Writer *writer, int interface) {
     const size_t lane = cz_lane(batch, interface, 0);
     const CzInterfaceEquipment *of = &batch->equipment[lane];
     for (int side = 0; side < 2; ++side)
-        if (of->side[side].has_anti_climber)
+        if (of->side[side].has_anti_climber || of->side[side].presses_plates)
             put(writer, CZ_CHANNEL_ANTI_CLIMBER_STROKE, cz_end_place(interface + side, side == 0),
-                1e3 * cz_memory(batch, CZ_MEMORY(face.side[side].stroke), lane));
+                1e3 * cz_memory(batch,
+                                of->side[side].presses_plates
+                                    ? CZ_MEMORY(side_buffers.side[side].tube)
+                                    : CZ_MEMORY(face.side[side].stroke),
+                                lane));
     const bool pushes = cz_published(batch, CZ_PUBLISHED(face.force), lane) > 0.0;
     if (of->can_climb) /* there is no overlap before contact */
         put(writer, CZ_CHANNEL_ANTI_CLIMBER_OVERLAP, interface,

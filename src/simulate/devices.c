@@ -26,11 +26,11 @@ static const Class classes[CZ_N_DEVICE] = {
 };
 
 /* Whether the side has the connection to which the device belongs; a bare wall has none. */
-static bool has_element(const CzBatch *batch, size_t lane, int car, int design,
+static bool has_element(const CzBatch *batch, size_t lane, int car, int design, int side,
                         CzDeviceClass class) {
-    const bool full = cz_car(batch, car, design)->model == CZ_MODEL_FULL;
+    const bool has_mass = cz_has_end_mass(batch, car, design, side);
     if (class == CZ_DEVICE_END || class == CZ_DEVICE_MASSLESS_END)
-        return full == (class == CZ_DEVICE_END);
+        return has_mass == (class == CZ_DEVICE_END);
     const CzInterfaceEquipment *of = &batch->equipment[lane];
     if (classes[class].element == CZ_ELEMENT_COUPLER)
         return of->has_couplers;
@@ -65,11 +65,15 @@ static CzDevice device_of(const CzBatch *batch, int interface, int design, int s
     const double usable = usable_of(batch, kind, which, own);
     const bool is_there =
         usable < CZ_MISSING &&
-        has_element(batch, cz_lane(batch, interface, design), car, design, class) &&
+        has_element(batch, cz_lane(batch, interface, design), car, design, side, class) &&
         (!slides || has_slide(batch, car, design, side));
+    const size_t lane = cz_lane(batch, interface, design);
+    const bool on_plates =
+        class == CZ_DEVICE_SIDE_TUBE && batch->equipment[lane].side[side].presses_plates;
+    const Class *named = on_plates ? &classes[CZ_DEVICE_ANTI_CLIMBER] : kind;
     return (CzDevice){.class = class,
-                      .element = kind->element,
-                      .text = kind->text,
+                      .element = named->element,
+                      .text = named->text,
                       .from_extremes = kind->source == EXTREME || slides,
                       .row = kind->row[which],
                       .lane = own,

@@ -46,6 +46,9 @@ static const Absorber coupler = {CZ_ELEMENT_COUPLER, cz_coupler_account,
 static const Absorber anti_climber = {CZ_ELEMENT_ANTI_CLIMBER, cz_anti_climber_account,
                                       CZ_MEMORY_PAIR(face.side, energy),
                                       CZ_MEMORY_PAIR(face.side, stroke), CZ_EXTREME(face_force)};
+static const Absorber device_on_plates = {
+    CZ_ELEMENT_ANTI_CLIMBER, cz_side_account, CZ_MEMORY_PAIR(side_buffers.side, tube_energy),
+    CZ_MEMORY_PAIR(side_buffers.side, tube), CZ_EXTREME(side_force)};
 static const Absorber side_buffers = {
     CZ_ELEMENT_SIDE_BUFFERS, cz_side_account, CZ_MEMORY_PAIR(side_buffers.side, tube_energy),
     CZ_MEMORY_PAIR(side_buffers.side, tube), CZ_EXTREME(side_force)};
@@ -122,12 +125,17 @@ static void split_zones(const CzBatch *batch, const CzEnd *end, int curve, size_
         zone_energy[zone] = sum > 0.0 ? fmax(energy, 0.0) * areas[zone] / sum : 0.0;
 }
 
+bool cz_has_end_mass(const CzBatch *batch, int car, int design, int side) {
+    const CzCarEquipment of = cz_car_equipment(batch->lanes, cz_lane(batch, car, design));
+    return !of.has_slaved_end[1 - side];
+}
+
 /* Whether the end of a car is an element: with its guidance if it has a mass, else with its crush
  * zone. */
 static bool has_end(const CzBatch *batch, int car, int design, int side) {
     const CzEnd *end = cz_end_at(batch, car, design, side);
-    return end->given && (end->n_stages > 0 || end->curve.given ||
-                          cz_car(batch, car, design)->model == CZ_MODEL_FULL);
+    return end->given &&
+           (end->n_stages > 0 || end->curve.given || cz_has_end_mass(batch, car, design, side));
 }
 
 /* Share of an end in the bare faces of its interface. */
@@ -156,7 +164,7 @@ static bool fill_end(const CzBatch *batch, size_t lane, int side, int car, int d
                      CzElementResult *result) {
     if (!has_end(batch, car, design, side))
         return false;
-    if (cz_car(batch, car, design)->model == CZ_MODEL_FULL)
+    if (cz_has_end_mass(batch, car, design, side))
         fill_end_mass(batch, cz_lane(batch, car, design), 1 - side, result);
     else {
         result->kind = CZ_ELEMENT_END;
@@ -174,7 +182,7 @@ static bool fill_end(const CzBatch *batch, size_t lane, int side, int car, int d
 bool cz_outer_end_fill(const CzBatch *batch, int design, int side, CzElementResult *result) {
     const int car = side == 0 ? batch->n_car - 1 : 0;
     *result = (CzElementResult){0};
-    if (cz_car(batch, car, design)->model != CZ_MODEL_FULL || !has_end(batch, car, design, side))
+    if (!cz_has_end_mass(batch, car, design, side))
         return false;
     fill_end_mass(batch, cz_lane(batch, car, design), 1 - side, result);
     result->vehicle = car;
@@ -186,7 +194,7 @@ bool cz_outer_end_fill(const CzBatch *batch, int design, int side, CzElementResu
 static void fill_zones(const CzBatch *batch, size_t lane, int side, int design,
                        CzElementResult *result) {
     const int car = result->vehicle;
-    const bool slaved = cz_car(batch, car, design)->model != CZ_MODEL_FULL;
+    const bool slaved = !cz_has_end_mass(batch, car, design, side);
     const int which = side == 0 ? 1 : 0; /* front or rear end of the car */
     split_zones(batch, cz_end_at(batch, car, design, side),
                 slaved ? CZ_CURVE(massless[side]) : CZ_CURVE(end[which]),
@@ -215,9 +223,11 @@ static bool fill_slide(const CzBatch *batch, int side, int car, int design,
 static int fill_side(const CzBatch *batch, size_t lane, int side, int car, int design,
                      CzElementResult *element) {
     CzElementResult *next = element;
+    const bool presses_plates = batch->equipment[lane].side[side].presses_plates;
     memset(element, 0, CZ_MAX_ELEMENTS / 2 * sizeof *element);
     next += fill_absorber(batch, &coupler, lane, side, car, next);
-    next += fill_absorber(batch, &anti_climber, lane, side, car, next);
+    next += fill_absorber(batch, presses_plates ? &device_on_plates : &anti_climber, lane, side,
+                          car, next);
     next += fill_end(batch, lane, side, car, design, next);
     next += fill_absorber(batch, &side_buffers, lane, side, car, next);
     next += fill_superstructure(batch, lane, car, next);

@@ -14,7 +14,7 @@ CzStatus cz_input_curve(const CzModel *model, int interface, double longest, int
                           : cz_model_fill(model, cz_problem_vehicles(model->problem, &n_vehicle), 0,
                                           lanes, error);
     if (status == CZ_OK)
-        cz_slow_closing(model, lanes, interface, longest, n, closure, force);
+        cz_slow_closing(lanes, interface, longest, n, closure, force);
     cz_arena_free(&arena);
     return status;
 }

@@ -51,9 +51,10 @@ struct CzReference {
 
 static bool moves(const CzBatch *batch, int row, size_t lane) {
     const CzLanes *lanes = batch->lanes;
-    const bool is_end = row == CZ_DOF(end[0].x) || row == CZ_DOF(end[1].x);
+    const CzCarEquipment of = cz_car_equipment(lanes, lane);
     return *cz_lane_mass(lanes, row, lane) > 0.0 ||
-           (is_end && cz_car_equipment(lanes, lane).has_slaved_ends);
+           (row == CZ_DOF(end[0].x) && of.has_slaved_end[0]) ||
+           (row == CZ_DOF(end[1].x) && of.has_slaved_end[1]);
 }
 
 /* Lists the degrees of freedom that move and the impulse of each car, with their allowed errors. */

@@ -257,6 +257,8 @@ void cz_interface_fill(const CzBatch *batch, int interface, int design, CzInterf
  * many. */
 int cz_interface_elements(const CzBatch *batch, int interface, int design,
                           CzElementResult element[CZ_MAX_ELEMENTS]);
+/* Whether the end of a car at side A (0) or B (1) of an interface has a mass of its own. */
+bool cz_has_end_mass(const CzBatch *batch, int car, int design, int side);
 /* The outer end at the front (0) or the rear (1) of all vehicles; false where it has no mass. */
 bool cz_outer_end_fill(const CzBatch *batch, int design, int side, CzElementResult *result);
 /* What the elements of an interface have dissipated so far [J], as cz_interface_fill reports it. */

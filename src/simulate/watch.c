@@ -107,15 +107,17 @@ static void watch_side(CzWatch *list, const CzBatch *batch, int interface, int s
           "coupler", name);
     watch(list, CZ_EVENT_ANTI_CLIMBER_ACTIVATION, FROM_MEMORY, CZ_MEMORY(face.side[side].stroke),
           lane, CRUSHED, "anti-climber", name);
-    watch(list, CZ_EVENT_TUBE_ACTIVATION, FROM_MEMORY, CZ_MEMORY(side_buffers.side[side].tube),
-          lane, CRUSHED, "side buffers", name);
+    const bool presses_plates = of->side[side].presses_plates;
+    watch(list, presses_plates ? CZ_EVENT_ANTI_CLIMBER_ACTIVATION : CZ_EVENT_TUBE_ACTIVATION,
+          FROM_MEMORY, CZ_MEMORY(side_buffers.side[side].tube), lane, CRUSHED,
+          presses_plates ? "anti-climber" : "side buffers", name);
     watch_devices(list, batch, interface, side);
     if (of->side[side].has_massless_end) {
         const int massless = CZ_CURVE(massless[side]);
         watch(list, CZ_EVENT_END_CRUSH, FROM_MEMORY, CZ_MEMORY(face.side[side].massless.peak), lane,
               first_stage(batch, massless, lane), "end", name);
     }
-    if (cz_car(batch, interface + side, 0)->model == CZ_MODEL_FULL) {
+    if (cz_has_end_mass(batch, interface + side, 0, side)) {
         const int end = CZ_CURVE(end[which]);
         watch(list, CZ_EVENT_END_CRUSH, FROM_MEMORY, CZ_MEMORY(end[which].peak), own,
               first_stage(batch, end, own), "end", name);

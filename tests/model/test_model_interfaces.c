@@ -104,7 +104,8 @@ static void height_offsets_raise_the_parts_ahead(void **state) {
                 0.0);
     assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.rise)), 0.0, 0.0, 0.0);
     /* A strut between unequal heights rests without force. */
-    assert_near(parameter(&built, 1, CZ_PARAMETER(coupler.length)), hypot(2.8, 0.03), 1e-14, 0.0);
+    assert_near(parameter(&built, 1, CZ_PARAMETER(coupler.length)), hypot(2.8, 0.03),
+                ROUNDING_OF_A_FORMULA, 0.0);
     free_model(&built);
 
     problem.input.n_scenarios = 1;
@@ -130,10 +131,12 @@ static void check_wall_side(const Built *built, int side) {
     const CzCurveId face = side == 1 ? CZ_CURVE(face[1]) : CZ_CURVE(face[0]);
     assert_near(parameter(built, 0, CZ_PARAMETER(coupler.exists)), 1.0, 0.0, 0.0);
     assert_near(parameter(built, 0, CZ_PARAMETER(coupler.coupled)), 0.0, 0.0, 0.0);
-    assert_near(parameter(built, 0, CZ_PARAMETER(coupler.pivot.distance)), 1.4, 1e-14, 0.0);
-    assert_near(parameter(built, 0, CZ_PARAMETER(coupler.length)), 1.4, 1e-14, 0.0);
+    assert_near(parameter(built, 0, CZ_PARAMETER(coupler.pivot.distance)), 1.4,
+                ROUNDING_OF_A_FORMULA, 0.0);
+    assert_near(parameter(built, 0, CZ_PARAMETER(coupler.length)), 1.4, ROUNDING_OF_A_FORMULA, 0.0);
     assert_near(parameter(built, 0, CZ_PARAMETER(coupler.pivot.rise)), 0.0, 0.0, 0.0);
-    assert_near(parameter(built, 0, CZ_PARAMETER(face.contact.distance)), 0.32, 1e-14, 0.0);
+    assert_near(parameter(built, 0, CZ_PARAMETER(face.contact.distance)), 0.32,
+                ROUNDING_OF_A_FORMULA, 0.0);
     assert_near(parameter(built, 0, CZ_PARAMETER(face.contact.rise)), 0.0, 0.0, 0.0);
     assert_near(parameter(built, 0, CZ_PARAMETER(face.compliance)), 1.0 / 4e8, 1e-15, 0.0);
     assert_near(parameter(built, 0, CZ_PARAMETER(face.overlap)), 1e30, 0.0, 0.0);
@@ -168,7 +171,8 @@ static void a_coupler_without_a_counterpart_strikes_the_bare_end(void **state) {
     Built built = build_model(&problem);
     assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.exists)), 1.0, 0.0, 0.0);
     assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.coupled)), 0.0, 0.0, 0.0);
-    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.length)), 1.4, 1e-14, 0.0);
+    assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.length)), 1.4, ROUNDING_OF_A_FORMULA,
+                0.0);
     assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.pivot.rise)), 0.0, 0.0, 0.0);
     assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.distance)),
                 car.front.anti_climber.gap, ROUNDING_OF_A_VALUE, 0.0);
@@ -188,9 +192,9 @@ static void parts_strike_a_bare_end_at_their_own_heights(void **state) {
     const CzEnd *end = &bare.rear;
     assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.side[1].on_end)), 1.0, 0.0, 0.0);
     assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.pivot.z[1])),
-                car.front.coupler.height - 0.04 - end->cg_height, 1e-14, 0.0);
+                car.front.coupler.height - 0.04 - end->cg_height, ROUNDING_OF_A_FORMULA, 0.0);
     assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.pivot.x[1])),
-                -(11.4 - end->face_gap - end->distance), 1e-13, 0.0);
+                -(11.4 - end->face_gap - end->distance), ROUNDING_OF_A_SUM, 0.0);
     assert_near(parameter(&built, 0, CZ_PARAMETER(coupler.pivot.rise)), 0.0, 0.0, 0.0);
     const CzAntiClimber *device = &car.front.anti_climber;
     const double low =
@@ -198,11 +202,12 @@ static void parts_strike_a_bare_end_at_their_own_heights(void **state) {
     const double high =
         fmin(device->height + device->face_height / 2, end->crush_height + 0.3 + 0.04);
     assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.z[0])),
-                (low + high) / 2 - car.front.cg_height, 1e-14, 0.0);
+                (low + high) / 2 - car.front.cg_height, ROUNDING_OF_A_FORMULA, 0.0);
     assert_near(parameter(&built, 0, CZ_PARAMETER(face.contact.z[1])),
-                (low + high) / 2 - 0.04 - end->cg_height, 1e-14, 0.0);
+                (low + high) / 2 - 0.04 - end->cg_height, ROUNDING_OF_A_FORMULA, 0.0);
     assert_near(parameter(&built, 0, CZ_PARAMETER(face.eccentricity)),
-                device->height - end->crush_height - 0.04, 1e-14, 1e-15);
+                device->height - end->crush_height - 0.04, ROUNDING_OF_A_FORMULA,
+                ROUNDING_OF_A_VALUE);
     assert_near(parameter(&built, 0, CZ_PARAMETER(face.overlap)), (device->face_height + 0.6) / 2,
                 ROUNDING_OF_A_FORMULA, 0.0);
     assert_near(parameter(&built, 0, CZ_PARAMETER(face.friction)), device->friction, 0.0, 0.0);
@@ -338,7 +343,8 @@ static void side_buffers_push_in_pairs(void **state) {
     assert_near(parameter(&built, 0, CZ_PARAMETER(side_buffers.contact.z[0])),
                 1.05 - end->cg_height, ROUNDING_OF_A_FORMULA, 0.0);
     assert_near(parameter(&built, 0, CZ_PARAMETER(side_buffers.friction)), 0.0, 0.0, 0.0);
-    assert_near(curve_at(built.lanes, 0, CZ_CURVE(side_buffer[0]), 0.105), 1.18e6, 1e-14, 0.0);
+    assert_near(curve_at(built.lanes, 0, CZ_CURVE(side_buffer[0]), 0.105), 1.18e6,
+                ROUNDING_OF_A_FORMULA, 0.0);
     assert_near(curve_at(built.lanes, 0, CZ_CURVE(side_tube[0]), 0.1), 1e30, ROUNDING_OF_A_FORMULA,
                 0.0);
     free_model(&built);

@@ -147,11 +147,16 @@ static bool is_warned_of(const Walk *walk, const CzKey *key) {
     return names_key(walk->as_written.warnings, models[walk->setting->model], key);
 }
 
+/* Whether another setting has shown a key without the key it acts with, and this one need not. */
+static bool is_left_out(const Walk *walk, CzRecordId id, int index) {
+    return walk->setting >= settings + N_WHOLE && walk->lacked[id][index];
+}
+
 /* Checks a key without the key it acts with: it has no effect, and the reader warns. */
 static void look_at_lacking(Walk *walk, CzRecordId id, int index, const Changes *changes,
                             const Trail *trail) {
     const CzKey *key = &cz_records[id].key[index];
-    for (int i = 0; i < changes->n; i++) {
+    for (int i = 0; i < changes->n && !is_left_out(walk, id, index); i++) {
         bool is_warned = false;
         const Effect effect = effect_of(walk, trail, changes->text[i], key, &is_warned);
         if (effect == DIFFERENCE)
@@ -192,6 +197,8 @@ static void look_at_key(Walk *walk, CzRecordId id, int index, const char *record
 static void look_at_child(Walk *walk, CzRecordId id, int index, const Trail *trail) {
     char gone[64];
     const CzKey *key = &cz_records[id].key[index];
+    if (is_left_out(walk, id, index))
+        return;
     snprintf(gone, sizeof gone, "%s: null", key->stem);
     const Effect effect = effect_of(walk, trail, gone, NULL, NULL);
     if (effect != NOTHING)

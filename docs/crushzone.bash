@@ -22,7 +22,7 @@ _crushzone() {
     --points | -n) return ;;
     --metric) return ;;
     --check) return ;;
-    --what) words='fd shares energy balance force velocity acceleration car-acceleration displacement shortening lift overlap pitch frames panels' ;;
+    --what) words='fd shares energy balance force velocity acceleration car-acceleration siv displacement shortening lift overlap pitch frames panels' ;;
     --at) return ;;
     --measured) COMPREPLY=($(compgen -f -- "$word")); return ;;
     --column) return ;;

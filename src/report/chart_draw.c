@@ -102,9 +102,9 @@ static void split_beyond(Sheet *sheet, CzSeries *series) {
 
 /* ---- curves of one quantity ---- */
 
-/* The curves of all interfaces or cars. Those at the same distance from the collision have the same
- * colour; the front train is dashed. */
-static void draw_all(Sheet *sheet, CzDrawn drawn) {
+/* The curves of all interfaces or cars over time, or over another quantity. Those at the same
+ * distance from the collision have the same colour; the front train is dashed. */
+static void draw_all_over(Sheet *sheet, CzDrawn over, CzDrawn drawn) {
     const CzPage *page = sheet->page;
     const bool of_interface = cz_drawn_info(drawn)->at == CZ_AT_INTERFACE;
     const int n = of_interface ? page->summary->n_interface : page->summary->n_vehicle;
@@ -113,10 +113,18 @@ static void draw_all(Sheet *sheet, CzDrawn drawn) {
         const int before = page->model->colliding - i;
         if (series == NULL)
             continue;
+        if (over != CZ_DRAWN_TIME) {
+            series->x = cz_page_values(page, over, i);
+            series->y_channel = NULL; /* the cursor of the page has no values of it */
+        }
         series->colour = before >= 0 ? before : of_interface ? -before : -before - 1;
         series->dash = (before < 0 ? 1 : 0) + (series->colour >= CZ_PLOT_N_COLOUR ? 2 : 0);
     }
     sheet->plot.from_zero |= of_interface;
+}
+
+static void draw_all(Sheet *sheet, CzDrawn drawn) {
+    draw_all_over(sheet, CZ_DRAWN_TIME, drawn);
 }
 
 /* Curves of figures that show several quantities of one place. */
@@ -239,6 +247,11 @@ static void draw_accelerations(Sheet *sheet, int index) {
     sheet->plot.y_label = "acceleration, not filtered: samples too far apart [g]";
 }
 
+static void draw_impacts(Sheet *sheet, int index) {
+    (void)index;
+    draw_all_over(sheet, CZ_DRAWN_FREE_FLIGHT, CZ_DRAWN_OCCUPANT_SPEED);
+}
+
 /* Shades the windows of the mean decelerations of a car. */
 static void draw_windows(Sheet *sheet, int car) {
     const CzVehicleResult *vehicle = &sheet->page->summary->vehicle[car];
@@ -329,6 +342,7 @@ static const struct {
                        [CZ_CHART_FORCE] = {draw_forces, true},
                        [CZ_CHART_ACCELERATION] = {draw_accelerations, false},
                        [CZ_CHART_CAR_ACCELERATION] = {draw_windows, false},
+                       [CZ_CHART_SECONDARY_IMPACT] = {draw_impacts, true},
                        [CZ_CHART_SHORTENING] = {draw_strokes, true},
                        [CZ_CHART_WHEEL_LIFT] = {draw_lifts, true}};
 

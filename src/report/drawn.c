@@ -5,6 +5,7 @@
 #include "report/units.h"
 #include "simulate/filter.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -112,13 +113,48 @@ static bool make_filtered(const CzRun *run, CzMadeCurves *made) {
     return fits;
 }
 
+/* A free occupant's way and velocity in a vehicle, up to a way of 1 m. */
+static bool fly_freely(const double *speed, const double *time, int n, double *way,
+                       double *velocity) {
+    const double farthest = 1; /* [m] */
+    if (way == NULL || velocity == NULL)
+        return false;
+    for (int i = 1; i < n; i++) {
+        const double step = (time[i] - time[i - 1]) / CZ_MILLI_PER_UNIT;
+        velocity[i] = speed[0] - speed[i];
+        way[i] = way[i - 1] + 0.5 * step * (velocity[i - 1] + velocity[i]);
+        if (!(fabs(way[i]) <= farthest)) /* also behind one that was */
+            way[i] = velocity[i] = NAN;
+    }
+    for (int i = 0; i < n; i++) {
+        way[i] = fabs(way[i]);
+        velocity[i] = fabs(velocity[i]);
+    }
+    return true;
+}
+
+static bool make_free_flights(const CzRun *run, CzMadeCurves *made) {
+    const double *time = cz_run_channel(run, CZ_CHANNEL_TIME, 0);
+    const int n = cz_run_n_sample(run);
+    bool fits = true;
+    for (int i = 0; i < cz_run_summary(run)->n_vehicle && fits; i++) {
+        const double *speed = cz_run_channel(run, CZ_CHANNEL_BODY_SPEED, i);
+        if (speed == NULL)
+            continue;
+        double *way = add(made, n, CZ_DRAWN_FREE_FLIGHT, i);
+        fits = fly_freely(speed, time, n, way, add(made, n, CZ_DRAWN_OCCUPANT_SPEED, i));
+    }
+    return fits;
+}
+
 CzStatus cz_drawn_make(const CzRun *run, CzMadeCurves *made, CzError *error) {
     *made = (CzMadeCurves){0};
     if (cz_run_n_sample(run) < 2 || cz_run_channel(run, CZ_CHANNEL_TIME, 0) == NULL)
         return CZ_OK;
-    made->curve = calloc((size_t)cz_run_summary(run)->n_vehicle + 2, sizeof *made->curve);
+    made->curve = calloc(3 * (size_t)cz_run_summary(run)->n_vehicle + 2, sizeof *made->curve);
     const bool fits = made->curve != NULL && make_dissipated(run, made) &&
-                      make_balance(run, made) && make_filtered(run, made);
+                      make_balance(run, made) && make_filtered(run, made) &&
+                      make_free_flights(run, made);
     return fits ? CZ_OK : cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report");
 }
 

@@ -60,6 +60,7 @@ static void write_motion(CzPage *page) {
                     "<div class='figures'>\n");
     write_all(page, CZ_CHART_VELOCITY);
     write_all(page, CZ_CHART_ACCELERATION);
+    write_all(page, CZ_CHART_SECONDARY_IMPACT);
     if (n > 0)
         cz_page_write_figure(page, CZ_CHART_CAR_ACCELERATION, hardest);
     cz_markup_write(markup, "</div>\n");

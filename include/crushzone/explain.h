@@ -50,7 +50,9 @@ enum { CZ_MOST_CARRIERS = 8, CZ_MOST_STATES = 12, CZ_MOST_EXPLAINED = 16 };
 typedef enum CzCarried {
     CZ_CARRIED_NOTHING, /* a check of the design alone */
     CZ_CARRIED_FORCE,   /* force at the time, or mean force over the window [N] */
-    CZ_CARRIED_ENERGY   /* dissipated energy of the run [J] */
+    CZ_CARRIED_ENERGY,  /* dissipated energy of the run [J] */
+    CZ_CARRIED_MOMENT   /* size of the impulses that pitched a vehicle until its largest lift, of a
+                           check of wheel lift [N m s] */
 } CzCarried;
 
 /* A load path, or an element, with its part of the whole. */
@@ -79,7 +81,7 @@ typedef struct CzTriedChange {
     double margin; /* of the check, the smallest over its scenarios; 1 for a satisfied yes or no,
                       -0.01 for a violated one */
     bool passes;   /* the check passes in all of them */
-    int n_broken;  /* other checks that passed before and fail now */
+    int n_broken;  /* other checks that fail now and did not before */
     char other[CZ_LABEL_ROOM], other_scenario[CZ_NAME_ROOM]; /* the other check with the smallest
                                                                 margin now; empty for none */
     double other_margin, other_before;                       /* its margin now and before */

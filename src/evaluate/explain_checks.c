@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/suggest.h"
+#include "evaluate/climbing.h"
 
 #define KILO 1e3
 #define SMALLEST_SHARE 0.005 /* carriers below it are left out (ours) */
@@ -132,6 +133,20 @@ static double event_time(const CzRunSummary *run, CzEventKind what, int interfac
     return NAN;
 }
 
+/* Channel of the load path of an element. */
+static CzChannel path_of(CzElementKind kind) {
+    return kind == CZ_ELEMENT_COUPLER        ? CZ_CHANNEL_COUPLER_FORCE
+           : kind == CZ_ELEMENT_SIDE_BUFFERS ? CZ_CHANNEL_SIDE_BUFFER_FORCE
+                                             : CZ_CHANNEL_ANTI_CLIMBER_FORCE;
+}
+
+/* Whether a metric is of a force, and not of a stroke. */
+static bool is_of_force(const CzMetricKind *kind) {
+    return strstr(kind->name, "force") != NULL || strstr(kind->name, "load") != NULL;
+}
+
+/* Time at which an element bottomed out or sheared off; else that of its largest force for a check
+ * of forces, and of the largest closure for one of strokes. */
 static double time_of_element(const Site *site) {
     const double end =
         event_time(site->summary, CZ_EVENT_BOTTOMED_OUT, site->interface[0], site->element);
@@ -139,7 +154,10 @@ static double time_of_element(const Site *site) {
         event_time(site->summary, CZ_EVENT_SHEAR_OFF, site->interface[0], site->element);
     if (!isnan(end) || !isnan(sheared))
         return fmin(end, sheared); /* fmin ignores NaN */
-    return time_of_largest(site->run, CZ_CHANNEL_INTERFACE_CLOSURE, site->interface[0]);
+    return time_of_largest(site->run,
+                           is_of_force(site->kind) ? path_of(site->element->kind)
+                                                   : CZ_CHANNEL_INTERFACE_CLOSURE,
+                           site->interface[0]);
 }
 
 /* Deciding time: that of the check where it is stored, else that of the largest value of a channel
@@ -231,6 +249,17 @@ static void add_energies(const Site *site, CzExplainedCheck *explained) {
     }
 }
 
+/* Impulses that pitched the body of a vehicle whose wheels lift. */
+static void add_impulses(const Site *site, CzExplainedCheck *explained) {
+    const CzVehicleBudget *budget = &site->summary->budget[site->vehicle];
+    int order[CZ_N_BUDGET];
+    const int n = cz_budget_order(budget, order);
+    for (int i = 0; i < n; i++)
+        if (cz_budget_counts((CzBudgetSource)order[i]))
+            add_carrier(explained, cz_budget_text((CzBudgetSource)order[i]),
+                        site->summary->vehicle[site->vehicle].name, fabs(budget->moment[order[i]]));
+}
+
 static int compare_carriers(const void *a, const void *b) {
     const double first = ((const CzCarrier *)a)->amount, second = ((const CzCarrier *)b)->amount;
     return (first < second) - (first > second);
@@ -241,6 +270,10 @@ static void find_carriers(const Site *site, CzExplainedCheck *explained) {
     if (site->kind->is_total) {
         explained->carried = CZ_CARRIED_ENERGY;
         add_energies(site, explained);
+    } else if (site->vehicle >= 0 && site->summary->budget != NULL &&
+               cz_climbing_judges(site->kind)) {
+        explained->carried = CZ_CARRIED_MOMENT;
+        add_impulses(site, explained);
     } else if (!isnan(explained->time[0])) {
         explained->carried = CZ_CARRIED_FORCE;
         for (int side = 0; side < 2; side++)

@@ -158,6 +158,13 @@ CzStatus cz_problem_list_values(const CzProblem *problem, CzArena *arena, int *n
     return top != NULL && !arena->out_of_memory ? CZ_OK : cz_no_memory(error, "the values");
 }
 
+const char *cz_problem_unit_symbol(const char *unit) {
+    for (int i = 0; i < cz_n_unit; i++)
+        if (strcmp(cz_units[i].suffix, unit) == 0)
+            return cz_units[i].symbol;
+    return unit;
+}
+
 double cz_problem_value_in(const CzProblemValue *value, const char *unit) {
     char own[40], other[40];
     snprintf(own, sizeof own, "x%s%.30s", value->unit[0] != '\0' ? "_" : "", value->unit);

@@ -20,6 +20,11 @@ typedef struct CzProblemValue {
 CZ_MUST_CHECK CzStatus cz_problem_list_values(const CzProblem *problem, CzArena *arena, int *n,
                                               CzProblemValue **value, CzError *error);
 
+/* The symbol of a unit for a reader, such as "km/h" for "km_h"; the unit itself where there is
+ * none.
+ */
+const char *cz_problem_unit_symbol(const char *unit);
+
 /* A number in another unit of its dimension, such as "mm"; "" is that of SI. */
 double cz_problem_value_in(const CzProblemValue *value, const char *unit);
 

@@ -148,7 +148,8 @@ static void compare_input(Comparing *comparing, const CzProblemValue *first) {
         }
     if (differs)
         add_input(comparing,
-                  &(CzInputDifference){first->path, 1, first->unit, value, number, origin});
+                  &(CzInputDifference){first->path, 1, cz_problem_unit_symbol(first->unit), value,
+                                       number, origin});
     else
         comparing->comparison.n_same_input++;
 }

@@ -43,12 +43,14 @@ static void write_head(const CzExplainedCheck *explained, CzTerminal *terminal) 
 }
 
 static void write_carriers(const CzExplainedCheck *explained, CzTerminal *terminal) {
-    const bool is_force = explained->carried == CZ_CARRIED_FORCE;
+    static const char *const heads[] = {[CZ_CARRIED_FORCE] = "carried by;>kN;>share",
+                                        [CZ_CARRIED_ENERGY] = "absorbed by;>kJ;>share",
+                                        [CZ_CARRIED_MOMENT] = "pitched by;>kNms;>share"};
     char text[CZ_FIGURE_ROOM];
     CzReportTable table;
     if (explained->n_carrier == 0)
         return;
-    cz_table_begin(&table, is_force ? "carried by;>kN;>share" : "absorbed by;>kJ;>share");
+    cz_table_begin(&table, heads[explained->carried]);
     for (int i = 0; i < explained->n_carrier; i++) {
         const CzCarrier *carrier = &explained->carrier[i];
         cz_table_put(&table, carrier->what);

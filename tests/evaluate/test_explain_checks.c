@@ -270,6 +270,33 @@ static void a_rule_of_the_design_has_changes_but_no_time(void **state) {
     end(&made);
 }
 
+/* A service rule: the coupler must not shear at 8 km/h; the time is that of its largest force. */
+static void a_service_rule_is_at_the_largest_force(void **state) {
+    (void)state;
+    static const char service[] =
+        TRAINS LIMIT("service", "elements.coupler *.shear_load", "max: 0.1") "]}\n";
+    Case made = explained(service, "service");
+    const CzExplainedCheck *check = find(&made, "service");
+    assert_int_equal(check->check.verdict, CZ_VERDICT_FAIL);
+    assert_false(isnan(check->time[0]));
+    assert_true(check->n_carrier > 0 && check->n_change > 0);
+    end(&made);
+}
+
+static void a_wheel_lift_is_at_its_time(void **state) {
+    (void)state;
+    Case made = explained("extends: two-cars-25kmh.yaml\n"
+                          "trains: [{name: A, speed_km_h: 45}]\n",
+                          "wheel lift / flange height");
+    const CzExplainedCheck *check = find(&made, "wheel lift / flange height");
+    assert_int_equal(check->check.verdict, CZ_VERDICT_FAIL);
+    assert_near(check->time[0], check->check.when[0], 0, 0);
+    assert_int_equal(check->carried, CZ_CARRIED_MOMENT);
+    assert_true(check->n_carrier > 2);
+    assert_true(made.explanation->has_climbing);
+    end(&made);
+}
+
 static void survival_space_is_explained_at_its_vehicle(void **state) {
     (void)state;
     Case made = explained(
@@ -311,6 +338,8 @@ int main(void) {
         cmocka_unit_test(without_a_failing_check_the_nearest_is_explained),
         cmocka_unit_test(an_unknown_check_is_refused_with_the_nearest_name),
         cmocka_unit_test(a_rule_of_the_design_has_changes_but_no_time),
+        cmocka_unit_test(a_service_rule_is_at_the_largest_force),
+        cmocka_unit_test(a_wheel_lift_is_at_its_time),
         cmocka_unit_test(survival_space_is_explained_at_its_vehicle),
         cmocka_unit_test(numbers_of_an_obstacle_are_not_changed),
     };

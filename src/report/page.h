@@ -117,14 +117,15 @@ CZ_MUST_CHECK CzStatus cz_page_finish(CzPage *page, FILE *stream, CzError *error
 /* The first and last lines of a page. */
 void cz_page_write_head(CzMarkup *markup, const char *title);
 void cz_page_write_foot(CzMarkup *markup);
+/* What a report is filed under: project, author, date, program, profile. */
+void cz_page_write_document(CzMarkup *markup, const CzProblem *problem);
 /* Links to the sections of the page of a run; for a search also to its own sections. */
 void cz_page_write_contents(CzPage *page, bool of_search);
 
 /* ---- parts, in the order of the page ---- */
 
-/* page_matrix.c: what the report is filed under; criteria by scenarios, and the figures that decide
- * them, where there are several scenarios. */
-void cz_page_write_document(CzMarkup *markup, const CzProblem *problem);
+/* page_matrix.c: criteria by scenarios, and the figures that decide them, where there are several
+ * scenarios. */
 bool cz_page_has_matrix(const CzPage *page);
 void cz_page_write_matrix(CzPage *page);
 void cz_page_write_deciding(CzPage *page);

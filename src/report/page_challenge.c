@@ -223,6 +223,7 @@ CzStatus cz_page_write_challenge(const CzReport *report, FILE *stream, CzError *
     snprintf(title, sizeof title, "%s, challenged", cz_problem_title(challenge->problem));
     cz_page_write_head(&markup, title);
     cz_markup_write(&markup, "<h1>%s</h1>", title);
+    cz_page_write_document(&markup, challenge->problem);
     cz_challenge_say_outcome(challenge, text);
     cz_markup_write(&markup, "<header><p class='banner %s'>%s</p></header>\n<p>%s.</p>\n",
                     challenge->is_broken                             ? "fail"

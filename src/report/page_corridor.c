@@ -231,6 +231,7 @@ CzStatus cz_page_write_corridor(const CzReport *report, FILE *stream, CzError *e
              corridor->path);
     cz_page_write_head(&markup, title);
     cz_markup_write(&markup, "<h1>%s</h1>", title);
+    cz_page_write_document(&markup, corridor->problem);
     write_banner(&markup, corridor);
     cz_markup_write(&markup,
                     "<nav><a href='#corridor'>corridor</a> <a href='#limits'>what limits it</a> "

@@ -27,15 +27,12 @@ static const CzMetricKind *kind_named(const char *name) {
 }
 
 static CzChart chart_of(const CzMetricKind *kind) {
-    static const CzChart of_level[] = {[CZ_LEVEL_RUN] = CZ_CHART_ENERGY,
-                                       [CZ_LEVEL_INTERFACE] = CZ_CHART_FORCE_CLOSURE,
-                                       [CZ_LEVEL_ELEMENT] = CZ_CHART_FORCE_CLOSURE,
-                                       [CZ_LEVEL_VEHICLE] = CZ_CHART_CAR_ACCELERATION,
-                                       [CZ_LEVEL_SECTION] = CZ_CHART_FORCE_CLOSURE};
     for (size_t i = 0; i < sizeof figures / sizeof *figures; i++)
         if (strcmp(figures[i].metric, kind->name) == 0)
             return figures[i].chart;
-    return of_level[kind->level];
+    return kind->level == CZ_LEVEL_RUN          ? CZ_CHART_ENERGY
+           : strcmp(kind->unit->text, "g") == 0 ? CZ_CHART_CAR_ACCELERATION
+                                                : CZ_CHART_FORCE_CLOSURE;
 }
 
 /* ---- the place ---- */

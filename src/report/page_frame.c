@@ -2,6 +2,7 @@
 #include "report/page.h"
 
 #include "report/assets.h"
+#include "report/document_lines.h"
 #include "report/page_deciding.h"
 
 void cz_page_write_head(CzMarkup *markup, const char *title) {
@@ -19,6 +20,18 @@ void cz_page_write_head(CzMarkup *markup, const char *title) {
                     policy, title);
     fputs(cz_report_css, markup->stream);
     cz_markup_write(markup, "</style>\n</head>\n<body>\n");
+}
+
+void cz_page_write_document(CzMarkup *markup, const CzProblem *problem) {
+    char text[CZ_DOCUMENT_ROOM];
+    cz_markup_write(markup, "<dl class='document'>");
+    for (int i = 0; i < CZ_N_DOCUMENT_LINE; i++) {
+        const char *line = cz_document_text(problem, i, text);
+        if (line != NULL)
+            cz_markup_write(markup, "<div><dt>%s</dt><dd>%s</dd></div>", cz_document_title(i),
+                            line);
+    }
+    cz_markup_write(markup, "</dl>\n");
 }
 
 void cz_page_write_foot(CzMarkup *markup) {

@@ -1,25 +1,12 @@
-/* The head of a page, its matrix of criteria and scenarios, and the figures that decide. */
+/* The matrix of criteria and scenarios, and the figures that decide. */
 #include "report/page.h"
 
 #include "report/checks_table.h"
-#include "report/document_lines.h"
 #include "report/matrix.h"
 #include "report/page_deciding.h"
 #include "report/verdict_words.h"
 
 #include <string.h>
-
-void cz_page_write_document(CzMarkup *markup, const CzProblem *problem) {
-    char text[CZ_DOCUMENT_ROOM];
-    cz_markup_write(markup, "<dl class='document'>");
-    for (int i = 0; i < CZ_N_DOCUMENT_LINE; i++) {
-        const char *line = cz_document_text(problem, i, text);
-        if (line != NULL)
-            cz_markup_write(markup, "<div><dt>%s</dt><dd>%s</dd></div>", cz_document_title(i),
-                            line);
-    }
-    cz_markup_write(markup, "</dl>\n");
-}
 
 /* ---- matrix ---- */
 

@@ -182,6 +182,7 @@ CzStatus cz_page_write_pareto(const CzPareto *pareto, const CzProblem *problem, 
     snprintf(text, sizeof text, "%s, front", cz_problem_title(problem));
     cz_page_write_head(&markup, text);
     cz_markup_write(&markup, "<h1>%s</h1>", text);
+    cz_page_write_document(&markup, problem);
     if (pareto->is_interrupted)
         cz_markup_write(&markup,
                         "<p class='fail'>The search was interrupted: points are missing.</p>");

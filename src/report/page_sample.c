@@ -181,6 +181,7 @@ CzStatus cz_page_write_sample(const CzReport *report, FILE *stream, CzError *err
     snprintf(title, sizeof title, "%s, sampled", cz_problem_title(sampling->problem));
     cz_page_write_head(&markup, title);
     cz_markup_write(&markup, "<h1>%s</h1>", title);
+    cz_page_write_document(&markup, sampling->problem);
     write_banner(&markup, sampling);
     if (sampling->n_run > 0)
         write_parts(&markup, report, order);

@@ -149,6 +149,7 @@ CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error)
     snprintf(title, sizeof title, "%s, swept", cz_problem_title(sweep->problem));
     cz_page_write_head(&markup, title);
     cz_markup_write(&markup, "<h1>%s</h1>", title);
+    cz_page_write_document(&markup, sweep->problem);
     if (sweep->is_interrupted)
         cz_markup_write(&markup,
                         "<p class='fail'>The sweep was interrupted: points are missing.</p>");

@@ -80,7 +80,7 @@ check "sweeps and comparisons combine checks by the same rule" sweep_agrees
 studies_agree() {
     exits 0 "$C" sweep elastic.yaml --vary trains.A.speed_km_h=4:5:2 -o swept && says out.txt 'A pass is one by screening: 2 requirements of the profile are not covered.' &&
         says out.txt 'Not covered by this program, to be shown by other means: vestibules; obstacle deflector.' &&
-        json swept/sweep.json points.0.screening true && json swept/sweep.json not_covered.0 vestibules && says swept/sweep.csv 'provisional (screening)' && says swept/report.html '2 requirements of the profile are not covered' &&
+        json swept/sweep.json points.0.screening true && json swept/sweep.json not_covered.0 vestibules && says swept/sweep.csv 'provisional (screening)' && says swept/report.html '2 requirements of the profile are not covered' && says swept/report.html 'class="document"' &&
         printf 'extends: elastic.yaml\nuncertainty: {samples: 4, parameters: [{path: trains.A.speed_km_h, tolerance_percent: 2}]}\n' >scatter.yaml &&
         exits 0 "$C" sample scatter.yaml -o sampled && says out.txt "PROVISIONAL PASS$screening; judged by" && json sampled/sample.json screening true && says sampled/samples.csv 'provisional (screening)' &&
         grep -qF "\">PROVISIONAL PASS$screening</p>" sampled/report.html &&

@@ -37,7 +37,7 @@ CzStatus cz_batch_lay(CzBatch *batch, CzError *error) {
     batch->equipment = cz_arena_allocate(arena, n, sizeof *batch->equipment);
     batch->load = cz_interface_loads_begin(batch, arena);
     if (batch->keeps_pulses)
-        batch->early = cz_arena_allocate(arena, n, sizeof *batch->early);
+        batch->sequence = cz_sequence_begin(batch, arena);
     batch->in_track = cz_arena_allocate(arena, n_block, sizeof *batch->in_track);
     batch->dynamics = cz_dynamics_create(batch->lanes, arena);
     if (arena->out_of_memory || batch->dynamics == NULL)
@@ -68,8 +68,8 @@ static void move_design(CzBatch *batch, int design, const CzBatch *from, int fro
         cz_dynamics_move(batch->dynamics, lane, from->dynamics, from_lane);
         batch->stored[lane] = from->stored[from_lane];
         cz_interface_load_move(batch, lane, from, from_lane);
-        if (batch->early != NULL)
-            batch->early[lane] = from->early[from_lane];
+        if (batch->sequence != NULL)
+            cz_sequence_move(batch, lane, from, from_lane);
     }
     batch->design[design] = from->design[from_design];
 }

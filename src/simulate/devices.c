@@ -104,7 +104,7 @@ double cz_device_stroke_now(const CzBatch *batch, const CzDevice *device) {
 
 double cz_device_energy(const CzBatch *batch, const CzDevice *device) {
     const double stroke = cz_device_stroke_now(batch, device);
-    return device->curve < 0
+    return device->curve < 0 || !(stroke > 0.0)
                ? 0.0
                : cz_curve_integral(&batch->lanes->curve[device->curve], device->lane, stroke);
 }

@@ -64,13 +64,6 @@ typedef struct CzTrackAccount {
     CzRow stored; /* [J] */
 } CzTrackAccount;
 
-/* Energy that the devices of the two sides of an interface had dissipated when an earlier device of
- * their end last had stroke left, by their place in the sequence [J]. */
-enum { CZ_N_SEQUENCE = 3 };
-typedef struct CzEarly {
-    double energy[2][CZ_N_SEQUENCE];
-} CzEarly;
-
 /* A batch that is simulated: designs, each in its own scenario. */
 typedef struct CzBatch {
     CzArena arena;
@@ -93,7 +86,7 @@ typedef struct CzBatch {
     double history_step;          /* of the samples [s] */
     CzProgressOfDesign *design;   /* (n_design) */
     struct CzInterfaceLoad *load; /* by lane */
-    CzEarly *early;               /* by lane; NULL without pulses */
+    struct CzSequence *sequence;  /* by lane; NULL without pulses */
 } CzBatch;
 
 /* Lane of a car of a design. */
@@ -160,6 +153,9 @@ bool cz_history_pulse(const CzBatch *batch, int car, int design, CzArena *arena,
 
 /* sequence.c: notes the sequence of the devices at a sample; sets the early energy of the elements
  * of a side, NaN where it was not noted. */
+typedef struct CzSequence CzSequence;
+CzSequence *cz_sequence_begin(const CzBatch *batch, CzArena *arena);
+void cz_sequence_move(CzBatch *batch, size_t lane, const CzBatch *from, size_t from_lane);
 void cz_sequence_look(const CzBatch *batch, int design);
 void cz_sequence_judge(const CzBatch *batch, int interface, int design, int side, int n_element,
                        CzElementResult *element);

@@ -10,9 +10,29 @@
 #include "simulate/devices.h"
 
 #include <math.h>
+#include <string.h>
 
-enum { N_RANK = CZ_N_SEQUENCE };
+enum { N_RANK = 3 };
 #define USED_UP 0.999 /* share of the stroke from which a device counts as used up (ours) */
+
+/* Devices of the two sides of an interface. */
+struct CzSequence {
+    bool is_listed;
+    int n[2];
+    CzDevice device[2][CZ_N_DEVICE];
+    double early[2][N_RANK]; /* energy by place in the sequence when an earlier device last had
+                                stroke left [J] */
+};
+
+CzSequence *cz_sequence_begin(const CzBatch *batch, CzArena *arena) {
+    const size_t n = (size_t)batch->n_car * (size_t)batch->n_design;
+    return cz_arena_allocate(arena, n, sizeof(CzSequence));
+}
+
+void cz_sequence_move(CzBatch *batch, size_t lane, const CzBatch *from, size_t from_lane) {
+    memcpy(batch->sequence[lane].early, from->sequence[from_lane].early,
+           sizeof from->sequence[from_lane].early);
+}
 
 /* Place of an element in the sequence; N_RANK for one that is not in it. */
 static int rank_of(CzElementKind kind) {
@@ -42,10 +62,10 @@ static bool has_stroke(const CzBatch *batch, size_t lane, int side, const CzDevi
     return cz_device_stroke_now(batch, device) < USED_UP * device->usable;
 }
 
-static void look_at_side(const CzBatch *batch, int interface, int design, int side) {
-    const size_t lane = cz_lane(batch, interface, design);
-    CzDevice device[CZ_N_DEVICE];
-    const int n = cz_devices_list(batch, interface, design, side, device);
+static void look_at_side(const CzBatch *batch, size_t lane, int side) {
+    CzSequence *sequence = &batch->sequence[lane];
+    const CzDevice *device = sequence->device[side];
+    const int n = sequence->n[side];
     int first_left = N_RANK; /* lowest rank with stroke left */
     for (int i = 0; i < n; ++i) {
         const int rank = rank_of(device[i].element);
@@ -55,14 +75,21 @@ static void look_at_side(const CzBatch *batch, int interface, int design, int si
     for (int i = 0; i < n; ++i) {
         const int rank = rank_of(device[i].element);
         if (rank > first_left && rank < N_RANK)
-            batch->early[lane].energy[side][rank] = cz_device_energy(batch, &device[i]);
+            sequence->early[side][rank] = cz_device_energy(batch, &device[i]);
     }
 }
 
 void cz_sequence_look(const CzBatch *batch, int design) {
-    for (int i = 0; i + 1 < batch->n_car; ++i)
-        for (int side = 0; side < 2; ++side)
-            look_at_side(batch, i, design, side);
+    for (int i = 0; i + 1 < batch->n_car; ++i) {
+        const size_t lane = cz_lane(batch, i, design);
+        CzSequence *sequence = &batch->sequence[lane];
+        for (int side = 0; side < 2; ++side) {
+            if (!sequence->is_listed)
+                sequence->n[side] = cz_devices_list(batch, i, design, side, sequence->device[side]);
+            look_at_side(batch, lane, side);
+        }
+        sequence->is_listed = true;
+    }
 }
 
 void cz_sequence_judge(const CzBatch *batch, int interface, int design, int side, int n_element,
@@ -72,8 +99,8 @@ void cz_sequence_judge(const CzBatch *batch, int interface, int design, int side
         const int rank = rank_of(element[k].kind);
         const double all = fmax(element[k].tube_energy, 0.0);
         element[k].early_energy = NAN;
-        if (batch->early != NULL)
+        if (batch->sequence != NULL)
             element[k].early_energy =
-                rank < N_RANK ? fmin(batch->early[lane].energy[side][rank], all) : 0.0;
+                rank < N_RANK ? fmin(batch->sequence[lane].early[side][rank], all) : 0.0;
     }
 }

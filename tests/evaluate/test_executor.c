@@ -133,7 +133,12 @@ static void end_loop(Loop *loop) {
         cz_worker_free(loop->worker[w]);
 }
 
+/* Two limits read the pulses of the vehicles, which runs of a search keep on request. */
 static const char scatter[] =
+    "checks:\n"
+    "  limits:\n"
+    "    - {name: impact, metric: vehicles.siv_m_s(gap_m=0.4), max: 12}\n"
+    "    - {name: sequence, metric: elements.anti-climber *.early_share, max: 1}\n"
     "optimise:\n"
     "  variables:\n"
     "    - {path: 'parts.tube.stages[0].force_kN', min: 400, max: 1500}\n"
@@ -235,6 +240,14 @@ static void compare_designs(CzEvaluator *here, CzEvaluator *there) {
             assert_string_equal(mine->scenario, other->scenario);
             assert_int_equal(mine->n_event, other->n_event);
             assert_memory_equal(&mine->energy, &other->energy, sizeof mine->energy);
+            for (int v = 0; v < mine->n_vehicle; v++) {
+                const CzPulse *p = &mine->pulse[v], *q = &other->pulse[v];
+                assert_int_equal(p->n_sample, q->n_sample);
+                assert_memory_equal(p->speed, q->speed, (size_t)p->n_sample * sizeof(double));
+                assert_memory_equal(p->force, q->force, (size_t)p->n_sample * sizeof(double));
+                assert_int_equal(p->n_window, q->n_window);
+                assert_memory_equal(p->window, q->window, (size_t)p->n_window * sizeof *p->window);
+            }
             assert_int_equal(cz_run_n_sample(a[i].run[r]), cz_run_n_sample(b[i].run[r]));
             assert_memory_equal(cz_run_channel(a[i].run[r], CZ_CHANNEL_INTERFACE_FORCE, 0),
                                 cz_run_channel(b[i].run[r], CZ_CHANNEL_INTERFACE_FORCE, 0),

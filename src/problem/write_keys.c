@@ -170,6 +170,27 @@ static void write_reuse(FILE *stream) {
         stream);
 }
 
+static void write_meeting(FILE *stream) {
+    fputs(
+        "\n## Unlike ends\n\n"
+        "Couplers, side buffers and anti-climbers meet parts of their kind.\n"
+        "Where the other end has none, they strike its bare end structure, such as a headstock:\n"
+        "\n"
+        "- it is `face_gap` behind the foremost plane of the end, and reaches from `crush_height` "
+        "by half of `face_height` up and down, or is struck at any height without `face_height`;\n"
+        "- a part that passes over or under it carries no force, and the reader warns;\n"
+        "- an anti-climber with `in_line_with_buffers` presses the plates of side buffers "
+        "instead;\n"
+        "- friction is the smaller of that of the part and `face_friction`;\n"
+        "- a structure with `struck_by: no_couplers` lets couplers through;\n"
+        "- the end of a rigid vehicle needs `face_mass` for its crush zone to act on couplers and "
+        "side buffers.\n"
+        "\n"
+        "The wagons, trains and obstacles of standards are parts of `catalogue/partners.yaml`; a "
+        "train of them has `role: obstacle`.\n",
+        stream);
+}
+
 void cz_keys_write_reference(FILE *stream) {
     char spelled[200];
     fputs(
@@ -203,6 +224,7 @@ void cz_keys_write_reference(FILE *stream) {
             fprintf(stream, " | %s%s |\n", key->doc, variation_text(key->variation));
         }
     }
+    write_meeting(stream);
     write_reuse(stream);
     write_units(stream);
 }

@@ -20,11 +20,19 @@ static const char *spaced_unit(const CzCheckResult *check, char room[32]) {
     return room;
 }
 
+/* The word for a number of a yes or no; NULL for others, and where several are counted. */
+static const char *yes_or_no(const CzCheckResult *check, double number) {
+    const bool counts = check->limit != 0 && check->limit != 1;
+    return !check->is_flag || counts ? NULL : number == 0 ? "no" : number == 1 ? "yes" : NULL;
+}
+
 const char *cz_checks_limit(char text[CZ_CHECK_ROOM], const CzCheckResult *check) {
     char number[CZ_FIGURE_ROOM], unit[32];
     double read; /* a typed limit is printed unchanged, a computed one is rounded */
     if (!isfinite(check->limit))
         return "-";
+    if (yes_or_no(check, check->limit) != NULL)
+        return yes_or_no(check, check->limit);
     cz_figure_digits(number, 6, check->limit);
     if (cz_number_parse(number, &read) != NULL || read != check->limit)
         cz_figure_digits(number, 4, check->limit);
@@ -35,6 +43,11 @@ const char *cz_checks_limit(char text[CZ_CHECK_ROOM], const CzCheckResult *check
 
 const char *cz_checks_value(char text[CZ_CHECK_ROOM], const CzCheckResult *check) {
     char number[CZ_FIGURE_ROOM], unit[32];
+    if (yes_or_no(check, check->value) != NULL) {
+        snprintf(text, CZ_CHECK_ROOM, "%s%s", yes_or_no(check, check->value),
+                 check->beyond_validity ? "*" : "");
+        return text;
+    }
     cz_figure_plain(number, check->value);
     /* A value that violates its limit must not read as equal to it. */
     const bool breaks =

@@ -19,7 +19,7 @@ void cz_checks_write_rows(CzMarkup *markup, const CzEvaluation *evaluation,
                           const CzEvaluation *before, bool rest);
 
 /* A value in its unit, with enough digits to differ from a limit that it violates; the limit in its
- * unit, a lower limit with "min" in front. Both return text. */
+ * unit, a lower limit with "min" in front; of a yes or no the words. Both return a text. */
 enum { CZ_CHECK_ROOM = 96 };
 const char *cz_checks_value(char text[CZ_CHECK_ROOM], const CzCheckResult *check);
 const char *cz_checks_limit(char text[CZ_CHECK_ROOM], const CzCheckResult *check);

@@ -26,9 +26,9 @@ static const char *number(char text[NUMBER_ROOM], double value) {
 static const char *forces(char text[2 * NUMBER_ROOM], double from, double to) {
     text[0] = '\0';
     if (isfinite(to) && from < to)
-        snprintf(text, 2 * NUMBER_ROOM, "%.4g-%.4g", from, to);
+        snprintf(text, 2 * NUMBER_ROOM, "%.5g-%.5g", from, to);
     else if (isfinite(to))
-        snprintf(text, 2 * NUMBER_ROOM, "%.4g", to);
+        snprintf(text, 2 * NUMBER_ROOM, "%.5g", to);
     return text;
 }
 

@@ -8,6 +8,19 @@
 #include <string.h>
 #include <sys/stat.h>
 
+/* What a folder without a resolved problem is; empty when it is not one of ours. */
+static const char *what_folder(const char *folder) {
+    if (cz_recall_is_there(folder, "sweep.json"))
+        return "it is the folder of a sweep, whose report was written by the sweep; 'crushzone "
+               "plot "
+               "FILE --vary PATH=A,B,C' draws the curves of several values";
+    if (cz_recall_is_there(folder, "pareto.json"))
+        return "it is the folder of a front, whose report was written with it";
+    return cz_recall_is_there(folder, "history.jsonl")
+               ? "it is the folder of a search that has not ended; go on with --resume"
+               : "";
+}
+
 /* File to run for an operand: the file itself, or that in the folder. */
 static int find_file(CzResult *result, const char *operand) {
     struct stat found;
@@ -19,13 +32,7 @@ static int find_file(CzResult *result, const char *operand) {
     if (!cz_recall_is_there(operand, "resolved.yaml")) {
         cz_fail(&error, CZ_STATUS_INPUT,
                 "%.200s is not a result folder: it has no resolved.yaml" CZ_HELP "%s", operand,
-                cz_recall_is_there(operand, "sweep.json")
-                    ? "it is the folder of a sweep, whose report was written by the sweep"
-                : cz_recall_is_there(operand, "pareto.json")
-                    ? "it is the folder of a front, whose report was written with it"
-                : cz_recall_is_there(operand, "history.jsonl")
-                    ? "it is the folder of a search that has not ended; go on with --resume"
-                    : "");
+                what_folder(operand));
         return cz_tell_error(&result->arguments, &error);
     }
     snprintf(result->file, sizeof result->file, "%s/resolved.yaml", operand);

@@ -176,7 +176,8 @@ static bool fails_to_keep_apart(CzBatch *batch, int design) {
             if (shortened < length)
                 continue;
             snprintf(what, sizeof what,
-                     "shortened by %.0f mm, more than the %.0f mm from its pivot to its face",
+                     "shortened by %.0f mm, more than the %.0f mm from its pivot to its face "
+                     "(length_m)",
                      1e3 * shortened, 1e3 * length);
             fail(batch, design, cz_car(batch, car + side, design)->name, "coupler", what);
             return true;

@@ -76,7 +76,7 @@ static void a_coupler_that_closes_by_its_whole_length_fails_the_run(void **state
     const CzRunSummary *summary = collision.summary;
     assert_int_equal(summary->status, CZ_STATUS_RUN_FAILED);
     assert_non_null(strstr(summary->failure, ": coupler: shortened by "));
-    assert_non_null(strstr(summary->failure, " the 700 mm from its pivot to its face"));
+    assert_non_null(strstr(summary->failure, " the 700 mm from its pivot to its face (length_m)"));
     collision_free(&collision);
 }
 

@@ -3,11 +3,15 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
 #include "model/own_design.h"
+#include "simulate/filter.h"
 #include "simulate/reference.h"
+
+#define FORCE_CLASS 180.0 /* channel frequency class of interface forces (SAE J211) [Hz] */
 
 /* Sum of the rows of a ledger class or list over all cars. */
 static double work_of(const CzBatch *batch, int design, int row) {
@@ -108,6 +112,7 @@ static void blank_element(CzElementResult *element) {
 static void blank_interface(CzInterfaceResult *result) {
     result->peak_force = result->peak_time = result->shortening = result->energy =
         result->energy_share = NAN;
+    result->peak_force_cfc180 = NAN;
     result->section_force[0] = result->section_force[1] = NAN;
     result->min_overlap = result->vertical_demand = result->vertical_margin = NAN;
     result->overlap_time = result->margin_time = result->ramp = result->underframe_rise = NAN;
@@ -166,6 +171,27 @@ static CzStatus fill_awaited(const CzBatch *batch, int design, CzRun *run) {
     return CZ_OK;
 }
 
+/* Fills the filtered peak of an interface from the recorded forces, where there are any. */
+static CzStatus fill_filtered_peak(const CzRun *run, int index, CzInterfaceResult *interface) {
+    const double *time = cz_run_channel(run, CZ_CHANNEL_TIME, 0);
+    const double *recorded = cz_run_channel(run, CZ_CHANNEL_INTERFACE_FORCE, index);
+    const int n = cz_run_n_sample(run);
+    interface->peak_force_cfc180 = NAN;
+    if (time == NULL || recorded == NULL || n < 2 ||
+        !cz_filter_fits(FORCE_CLASS, 1e-3 * (time[1] - time[0])))
+        return CZ_OK;
+    double *force = malloc((size_t)n * sizeof *force);
+    if (force == NULL)
+        return CZ_STATUS_NO_MEMORY;
+    const CzStatus status =
+        cz_filter_cfc(FORCE_CLASS, 1e-3 * (time[1] - time[0]), n, recorded, force);
+    interface->peak_force_cfc180 = 0.0;
+    for (int i = 0; i < n; ++i)
+        interface->peak_force_cfc180 = fmax(interface->peak_force_cfc180, 1e3 * fabs(force[i]));
+    free(force);
+    return status;
+}
+
 CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
     const CzModel *model = batch->design[design].model;
     const CzProgressOfDesign *progress = &batch->design[design];
@@ -211,6 +237,7 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
             cz_outer_end_fill(batch, design, side, &summary->outer_end[summary->n_outer_end]);
     for (int i = 0; i < n_interface; ++i) {
         cz_interface_fill(batch, i, design, &interface[i]);
+        CZ_TRY(fill_filtered_peak(run, i, &interface[i]));
         interface[i].energy_share = share_of(interface[i].energy, summary->energy.dissipated);
         for (int k = 0; k < interface[i].n_element; ++k)
             summary->energy.survival += interface[i].element[k].zone_energy[CZ_ZONE_SURVIVAL];

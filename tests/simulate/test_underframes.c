@@ -1,4 +1,4 @@
-/* Largest values of bogies and underframes, against channels and simple bodies. */
+/* Largest values of bogies, underframes and filtered forces, against channels and simple bodies. */
 #include "physics/collision.h"
 
 #define PAIR "tests/physics/cases/full-pair.yaml"
@@ -54,10 +54,25 @@ static void a_bogie_on_a_stiff_link_has_the_acceleration_of_its_car(void **state
     collision_free(&collision);
 }
 
+/* A plateau of 1 MN over 0.3 s passes the filter, whose steps overshoot it by a few percent; the
+ * sampling must be dense enough for the class. */
+static void a_filtered_force_is_beside_the_peak_of_every_step(void **state) {
+    (void)state;
+    static const char plateau[] = "tests/physics/cases/plateau.yaml";
+    Collision dense = collide(plateau, WITH("simulation.output_step_ms=0.5"), 0);
+    Collision sparse = collide(plateau, WITH("simulation.output_step_ms=1"), 0);
+    const CzInterfaceResult *interface = &dense.summary->interface[0];
+    assert_near(interface->peak_force_cfc180, interface->peak_force, 0.1, 0);
+    assert_true(isnan(sparse.summary->interface[0].peak_force_cfc180));
+    collision_free(&dense);
+    collision_free(&sparse);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(underframes_without_couplers_rise_at_their_ends),
         cmocka_unit_test(there_is_no_rise_where_nothing_can_rise),
+        cmocka_unit_test(a_filtered_force_is_beside_the_peak_of_every_step),
         cmocka_unit_test(a_bogie_on_a_stiff_link_has_the_acceleration_of_its_car),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

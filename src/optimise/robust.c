@@ -204,16 +204,6 @@ static double nominal_margin(const CzSampling *sampling) {
 
 /* ---- rounds ---------------------------------------------------------------------------------- */
 
-/* Largest violation of the statistic of a check; 0 when the samples are judged to hold. */
-static double violation_in(const CzSampling *sampling) {
-    double worst = CZ_ROBUST_NEAR;
-    if (sampling->judgement != CZ_VERDICT_FAIL)
-        return 0;
-    for (int c = 0; c < sampling->n_check; c++)
-        worst = fmax(worst, cz_robust_violation(&sampling->check[c]));
-    return worst;
-}
-
 /* What a round found about its design. */
 typedef struct Found {
     CzProblem *designed;
@@ -232,7 +222,7 @@ static void free_found(Found *found) {
 static CzStatus sample_round(Robust *robust, Found *found, CzError *error) {
     CZ_TRY(cz_evaluator_read_design(robust->plain, robust->x, &found->designed, error));
     CZ_TRY(sample(robust, found->designed, true, &found->sampling, error));
-    if (violation_in(found->sampling) > 0 || is_stopped(robust))
+    if (cz_robust_violation_in(found->sampling) > 0 || is_stopped(robust))
         return CZ_OK;
     cz_sampling_free(found->sampling);
     found->sampling = NULL;
@@ -256,9 +246,10 @@ static void rank(const Robust *robust, const CzRobustRound *round, const Found *
     const CzEvaluation *nominal = &found->sampling->nominal;
     const CzChallenge *challenge = found->challenge;
     key[NOMINAL] = fmax(nominal->violation, 0);
-    key[SAMPLES] = violation_in(found->sampling) > 0 ? round->n_sample - round->n_pass : 0;
+    key[SAMPLES] =
+        cz_robust_violation_in(found->sampling) > 0 ? round->n_sample - round->n_pass : 0;
     key[RUNS] = challenge != NULL && challenge->is_broken ? fmax(challenge->n_fail, 1) : 0;
-    key[VIOLATION] = violation_in(found->sampling);
+    key[VIOLATION] = cz_robust_violation_in(found->sampling);
     key[OBJECTIVE] = nominal->objective;
     if (cz_evaluator_maximises_margin(robust->plain))
         key[OBJECTIVE] = -fmin(-nominal->objective, round->required_margin);
@@ -303,7 +294,7 @@ static CzStatus judge(Robust *robust, CzRobustRound *round, Found *found, int *n
     const CzSampling *sampling = found->sampling;
     fill_round(round, sampling);
     const double limit = robust->seen > CZ_ROBUST_NEAR ? robust->seen - CZ_ROBUST_NEAR : 0;
-    const bool is_held = violation_in(sampling) <= 0 && sampling->nominal.violation <= 0;
+    const bool is_held = cz_robust_violation_in(sampling) <= 0 && sampling->nominal.violation <= 0;
     if (!is_held || round->required_margin < limit)
         *n_new = cz_robust_add_samples(added, sampling, limit);
     if (is_held && uncertainty->n_envelope > 0 && !is_stopped(robust))
@@ -387,7 +378,7 @@ static void conclude(const Robust *robust, CzOutcome *outcome) {
     } else if (result->sampling->nominal.violation > 0 ||
                outcome->best_evaluation.status != CZ_OK) {
         why = "the best design fails in the scenarios of the file";
-    } else if (violation_in(result->sampling) > 0) {
+    } else if (cz_robust_violation_in(result->sampling) > 0) {
         why = "the best design fails in samples";
     } else if (!holds(robust)) {
         why = "the adversary breaks the best design";

@@ -59,6 +59,15 @@ static double urgency_of(const CzSampledCheck *check) {
                                                    : -check->required;
 }
 
+double cz_robust_violation_in(const CzSampling *sampling) {
+    double worst = CZ_ROBUST_NEAR;
+    if (sampling->judgement != CZ_VERDICT_FAIL)
+        return 0;
+    for (int c = 0; c < sampling->n_check; c++)
+        worst = fmax(worst, cz_robust_violation(&sampling->check[c]));
+    return worst;
+}
+
 int cz_robust_add_samples(CzRobustCases *cases, const CzSampling *sampling, double limit) {
     const CzSamplingParts *parts = sampling->parts;
     bool *is_done =

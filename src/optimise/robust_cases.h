@@ -32,6 +32,9 @@ static inline double cz_robust_violation(const CzSampledCheck *check) {
     return fmax(-check->required, 0);
 }
 
+/* Largest violation of the statistic of a check; 0 when the samples are judged to hold. */
+double cz_robust_violation_in(const CzSampling *sampling);
+
 /* Adds the samples at the statistics that are violated or below `limit`: of each check name that in
  * the scenario that is worst, the lowest first. Returns how many are new; without memory the arena
  * says so. */

@@ -216,9 +216,14 @@ static void check_train(const CzRules *rules, const CzTrain *train) {
         check_neighbours(rules, &train->vehicles[i - 1], &train->vehicles[i], 0);
 }
 
+/* Whether the partners are missing because the profile that adds them could not be used. */
+static bool lacks_profile(const CzRules *rules) {
+    return rules->input->checks.profile != NULL && rules->problem->whole_profile == NULL;
+}
+
 void cz_rules_check_trains(const CzRules *rules) {
     const CzInput *input = rules->input;
-    if (input->n_trains == 1)
+    if (input->n_trains == 1 && !lacks_profile(rules))
         cz_rule_broken(rules, &input->trains, "a collision needs two trains, but there is one");
     for (int i = 0; i < input->n_trains; i++)
         check_train(rules, &input->trains[i]);

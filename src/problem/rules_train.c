@@ -109,6 +109,25 @@ static void warn_of_passing(const CzRules *rules, const Facing *facing, CzPartKi
                     CZ_MM((is_over ? structure.high : structure.low) + facing->rise));
 }
 
+/* Couplers and side buffers meet their kind at any height; so far apart they would pass. */
+static void warn_of_heights_apart(const CzRules *rules, const Facing *facing, CzPartKind kind) {
+    static const double most[CZ_N_PART] = {[CZ_PART_COUPLER] = 0.2, [CZ_PART_SIDE_BUFFERS] = 0.34};
+    const CzEnd *end = facing->end;
+    const bool is_coupler = kind == CZ_PART_COUPLER;
+    if (most[kind] == 0.0 || !cz_end_has(end, kind) || !cz_end_has(facing->opposite, kind))
+        return;
+    const double own = cz_part_heights(end, kind).low;
+    const double other = cz_part_heights(facing->opposite, kind).low + facing->rise;
+    if (!(other - own > most[kind])) /* told of the lower one; NaN where heights do not matter */
+        return;
+    cz_rule_warning(rules,
+                    is_coupler ? (const void *)&end->coupler : (const void *)&end->side_buffers,
+                    "the %s of '%.48s' meets that of '%.48s', which is %s higher: in reality it "
+                    "may pass under it",
+                    is_coupler ? "coupler" : "pair of side buffers", name_of(facing->own->name),
+                    name_of(facing->other->name), CZ_MM(other - own));
+}
+
 /* The strength of an anti-climber on plates does not depend on the closing speed. */
 static void warn_of_speed_factor(const CzRules *rules, const Facing *facing) {
     const CzAntiClimber *device = &facing->end->anti_climber;
@@ -175,8 +194,10 @@ static void check_neighbours(const CzRules *rules, const CzVehicle *behind, cons
                        "no device can deflect between '%.48s' and '%.48s': neither end has one",
                        name_of(behind->name), name_of(ahead->name));
     for (int i = 0; i < 2; i++) {
-        for (int kind = 0; kind < CZ_N_PART; kind++)
+        for (int kind = 0; kind < CZ_N_PART; kind++) {
             warn_of_passing(rules, &ends[i], (CzPartKind)kind);
+            warn_of_heights_apart(rules, &ends[i], (CzPartKind)kind);
+        }
         warn_of_no_face_mass(rules, &ends[i]);
         warn_of_speed_factor(rules, &ends[i]);
         check_strut(rules, &ends[i]);

@@ -373,19 +373,34 @@ static void keep_nearest(CzExplanation *explanation, const CzEvaluation *evaluat
         keep(explanation, nearest);
 }
 
-static CzStatus keep_named(CzExplanation *explanation, const CzEvaluation *evaluation,
-                           const char *name, CzError *error) {
+/* Whether a check is not of a scenario that was left out. */
+static bool is_of_a_run(const CzEvaluator *evaluator, const CzCheckResult *result) {
+    const CzCheck *check = listed(evaluator, result);
+    return check == NULL || check->scenario == CZ_NO_SCENARIO ||
+           evaluator->model[check->scenario] != NULL;
+}
+
+/* The worst check of a name; that of a scenario that was left out only without another. */
+static CzStatus keep_named(CzExplanation *explanation, const CzEvaluator *evaluator,
+                           const CzEvaluation *evaluation, const char *name, CzError *error) {
     CzSuggestion nearest = {0};
+    const CzCheckResult *left_out = NULL;
     bool found = false;
     for (int i = 0; i < evaluation->n_check; i++) {
         const CzCheckResult *check = &evaluation->check[i];
         cz_suggest(&nearest, name, check->name);
         if (strcmp(check->name, name) != 0)
             continue;
+        if (!is_of_a_run(evaluator, check)) {
+            left_out = check;
+            continue;
+        }
         found = true;
         keep(explanation, check);
     }
-    if (found)
+    if (!found && left_out != NULL)
+        keep(explanation, left_out);
+    if (found || left_out != NULL)
         return CZ_OK;
     cz_fail(error, CZ_STATUS_INPUT, "the problem has no check '%.200s'", name);
     cz_suggest_help(&nearest, error);
@@ -399,7 +414,7 @@ CzStatus cz_explain_checks(const CzEvaluator *evaluator, const CzEvaluation *eva
     if (explanation->check == NULL)
         return cz_no_memory(error, "an explanation");
     for (int i = 0; i < options->n_check; i++)
-        CZ_TRY(keep_named(explanation, evaluation, options->check[i], error));
+        CZ_TRY(keep_named(explanation, evaluator, evaluation, options->check[i], error));
     for (int i = 0; i < evaluation->n_check && options->n_check == 0; i++)
         if (evaluation->check[i].verdict == CZ_VERDICT_FAIL)
             keep(explanation, &evaluation->check[i]);

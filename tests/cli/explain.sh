@@ -10,6 +10,11 @@ checks() { # of a train of single masses, which cannot climb: its failing checks
         exits 0 "$C" explain two.yaml --check 'mean deceleration' --json && json out.txt checks.0.check.verdict pass && json out.txt climbing false && exits 2 "$C" explain two.yaml --check 'mean decelaration' && says err.txt "did you mean 'mean deceleration'?"
 }
 check "failing checks are explained, and passing ones by name" checks
+one_scenario() {
+    printf 'extends: two.yaml\nscenarios: [{name: slow, speed_km_h: 5}, {name: fast, speed_km_h: 25}]\n' >slow.yaml
+    exits 0 "$C" explain slow.yaml --scenario fast --check 'mean deceleration' && says out.txt 'mean deceleration, fast' && ! grep -q 'NOT CHECKED' out.txt
+}
+check "of a check in several scenarios one that was run is explained" one_scenario
 unchecked() {
     printf 'extends: %s\nparts: {paper-car: {bogie: {secondary: {lift_gap_mm: null}}}}\n' "$cars" >no-stops.yaml
     exits 0 "$C" explain no-stops.yaml && says out.txt 'NOT CHECKED in full' && ! grep -q 'no override' out.txt

@@ -1,9 +1,40 @@
-/* Lists scenarios of the profile that do not apply to a problem. */
+/* Lists scenarios of the profile that do not apply to a problem, or that it changes. */
 #include "evaluate/not_applicable.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/error.h"
+
+#define ROUNDING 1e-9 /* of a value that was written and read again */
+
+/* Whether a value is that of the profile, where both are given; `usual` stands for an absent one.
+ */
+static bool is_same(double own, double asked, double usual) {
+    const double a = isnan(own) ? usual : own, b = isnan(asked) ? usual : asked;
+    return isnan(a) || isnan(b) || fabs(a - b) <= ROUNDING * fmax(1.0, fabs(b));
+}
+
+/* Whether the problem has a scenario of the profile with the profile's values: by expansion, or
+ * written in the file, as in resolved.yaml. */
+static bool has_it(const CzInput *input, const CzProfileScenario *asked, double speed) {
+    for (int i = 0; i < input->n_scenarios; i++) {
+        const CzScenario *own = &input->scenarios[i];
+        if (own->name == NULL || strcmp(own->name, asked->name) != 0)
+            continue;
+        const bool is_onto_it = strcmp(asked->partner, "identical") == 0 ||
+                                own->trains.n_text < 2 ||
+                                strcmp(own->trains.text[1], asked->partner) == 0;
+        return is_onto_it && !isnan(own->speed) && is_same(own->speed, speed, NAN) &&
+               is_same(own->height_offset, asked->height_offset, 0) &&
+               is_same(own->perturbation, asked->perturbation, 0) &&
+               is_same(own->partner_brake_ratio, asked->partner_brake_ratio, NAN) &&
+               is_same(own->mass_factor, asked->mass_factor, 1) &&
+               is_same(own->payload_share, asked->payload_share, 0);
+    }
+    return false;
+}
 
 CzStatus cz_not_applicable_list(const CzProblem *problem, CzArena *arena, CzChecklist *list,
                                 CzError *error) {
@@ -12,11 +43,17 @@ CzStatus cz_not_applicable_list(const CzProblem *problem, CzArena *arena, CzChec
     const char **text = cz_arena_allocate(arena, (size_t)n_asked + 1, sizeof *text);
     list->not_applicable = text;
     for (int i = 0; text != NULL && i < n_asked; i++) {
+        const CzStanding standing = asked[i].standing;
+        const char *why = asked[i].why;
         char line[400];
-        if (asked[i].standing != CZ_STANDING_NOT_APPLICABLE)
+        if (standing == CZ_STANDING_NOT_SELECTED)
             continue;
-        const int n =
-            snprintf(line, sizeof line, "%.60s: %.300s", asked[i].scenario->name, asked[i].why);
+        if (standing != CZ_STANDING_NOT_APPLICABLE) {
+            if (has_it(cz_problem_input(problem), asked[i].scenario, asked[i].speed))
+                continue;
+            why = "this problem has another one in its place, or other values";
+        }
+        const int n = snprintf(line, sizeof line, "%.60s: %.300s", asked[i].scenario->name, why);
         text[list->n_not_applicable++] = cz_arena_copy_text(arena, line, (size_t)n);
     }
     return arena->out_of_memory ? cz_no_memory(error, "the checks") : CZ_OK;

@@ -254,6 +254,7 @@ typedef struct CzAskedScenario {
     const CzProfileScenario *scenario;
     CzStanding standing;
     const char *why; /* it does not apply, or what replaces it; NULL otherwise */
+    double speed;    /* that the profile asks for [m/s] */
 } CzAskedScenario;
 
 /* The scenarios of the problem's profile: those of the category, then those that do not apply. */

@@ -306,8 +306,8 @@ static bool has_interface(const Expansion *expansion, const CzProfileScenario *s
 /* Decides on a scenario of the category, and adds it when it is run as the profile has it. */
 static CzAskedScenario ask(Expansion *expansion, const CzNode *written,
                            const CzProfileScenario *scenario) {
-    CzAskedScenario asked = {.scenario = scenario};
     const double speed = cz_profile_speed(scenario, expansion->checks.line_speed);
+    CzAskedScenario asked = {.scenario = scenario, .speed = speed};
     asked.why = find_replacement(expansion, scenario);
     if (asked.why != NULL) {
         asked.standing = CZ_STANDING_REPLACED;
@@ -369,7 +369,7 @@ static void ask_all(Expansion *expansion, const CzNode *nodes) {
         const CzProfileScenario *scenario = &whole->scenarios[i];
         if (scenario->name != NULL && !is_asked(asked, n, scenario->name))
             asked[n++] = (CzAskedScenario){scenario, CZ_STANDING_NOT_APPLICABLE,
-                                           reason(expansion, scenario)};
+                                           reason(expansion, scenario), NAN};
     }
     problem->asked = asked;
     problem->n_asked = n;

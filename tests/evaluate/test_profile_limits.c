@@ -81,10 +81,41 @@ static void an_override_acts_as_the_number_in_the_profile(void **state) {
     end(&in_profile);
 }
 
+/* Scenarios of the category that a problem of one train does not have as its profile has them. */
+static int n_changed_scenarios(const char *more) {
+    char text[1000];
+    Case made = {0};
+    CzError error = {0};
+    snprintf(text, sizeof text, "extends: " CZ_SOURCE_FOLDER "/tests/problem/good/single.yaml\n%s",
+             more);
+    if (cz_problem_read_text(text, strlen(text), "more.yaml", ".", NULL, &made.problem, &error) !=
+            CZ_OK ||
+        cz_evaluator_build(made.problem, NULL, &made.evaluator, &error) != CZ_OK)
+        fail_msg("%s", error.message);
+    assert_int_equal(cz_evaluate(made.evaluator, 1, NULL, false, &made.evaluation, &error), CZ_OK);
+    int n = 0;
+    for (int i = 0; i < made.evaluation.n_not_applicable; i++)
+        n += strstr(made.evaluation.not_applicable[i], "another one in its place") != NULL;
+    end(&made);
+    return n;
+}
+
+/* A verdict by a profile tells which of its scenarios the problem has changed, not repeated. */
+static void a_changed_scenario_is_told_apart(void **state) {
+    (void)state;
+    assert_int_equal(n_changed_scenarios(""), 0);
+    assert_int_equal(
+        n_changed_scenarios("scenarios: [{name: alike, speed_km_h: 20, trains: [A, B]}]\n"), 1);
+#define CROSSING "scenarios: [{name: crossing, speed_km_h: 110, payload_share: 0.5, trains: "
+    assert_int_equal(n_changed_scenarios(CROSSING "[A, wagon]}]\n"), 0);
+    assert_int_equal(n_changed_scenarios(CROSSING "[A, B]}]\n"), 1);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_limit_changes_only_its_own_verdicts),
         cmocka_unit_test(an_override_acts_as_the_number_in_the_profile),
+        cmocka_unit_test(a_changed_scenario_is_told_apart),
     };
     if (enter_work_folder() != 0)
         return 1;

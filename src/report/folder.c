@@ -58,10 +58,10 @@ bool cz_folder_lists(const char *file) {
 static bool find_foreign(const char *folder, const char *marker, const char *prefix,
                          char foreign[PATH_MAX]) {
     DIR *entries = opendir(folder);
-    bool found = entries == NULL;
+    bool found = entries == NULL && errno != ENOENT; /* another process has removed it */
     snprintf(foreign, PATH_MAX, "%s", prefix);
     struct dirent *entry;
-    while (!found && (entry = readdir(entries)) != NULL) {
+    while (!found && entries != NULL && (entry = readdir(entries)) != NULL) {
         char path[PATH_MAX], name[PATH_MAX];
         struct stat info;
         const char *own = entry->d_name;
@@ -122,14 +122,34 @@ bool cz_folder_holds(const char *folder, const char *file) {
     return strncmp(above, below, n) == 0 && (below[n] == '/' || below[n] == '\0');
 }
 
+/* Reads the marker of a folder, again when another process put a new folder in its place
+ * meanwhile; *is_there is whether there is a folder without one. */
+static char *read_marker(const char *path, bool *is_there) {
+    struct stat before, after;
+    char *marker = NULL;
+    bool is_new = true;
+    *is_there = false;
+    while (marker == NULL && is_new) {
+        const bool was_there = stat(path, &before) == 0;
+        errno = 0;
+        marker = cz_marker_read(path);
+        const int reason = errno;
+        *is_there = stat(path, &after) == 0;
+        is_new = *is_there && reason != ENOMEM &&
+                 (!was_there || before.st_dev != after.st_dev || before.st_ino != after.st_ino);
+        errno = reason;
+    }
+    return marker;
+}
+
 /* Checks that a folder holds only files of crushzone. */
 static CzStatus check_content(const char *path, bool replaces_search, CzError *error) {
     char foreign[PATH_MAX];
-    errno = 0;
-    char *marker = cz_marker_read(path);
+    bool is_there;
+    char *marker = read_marker(path, &is_there);
     if (marker == NULL && errno == ENOMEM)
         return cz_cannot_write(path, errno, error);
-    if (marker == NULL && access(path, F_OK) != 0)
+    if (marker == NULL && !is_there)
         return CZ_OK; /* another process has removed it */
     if (marker == NULL)
         return cz_fail(error, CZ_STATUS_OUTPUT,

@@ -76,6 +76,8 @@ static CzStatus build_scene(const CzProblem *problem, int index, CzArena *arena,
     scene->is_overload = scenario->mass_factor >= CZ_OVERLOAD_FACTOR * (1 - 1e-9);
     scene->closing_speed = value_or(scenario->speed, input->trains[scene->train[0]].speed) -
                            value_or(scenario->partner_speed, input->trains[scene->train[1]].speed);
+    scene->rise = value_or(scenario->height_offset, input->trains[scene->train[1]].height_offset) -
+                  input->trains[scene->train[0]].height_offset;
     return CZ_OK;
 }
 

@@ -18,10 +18,11 @@ typedef struct CzScene {
     const int *record;               /* their places in the problem's vehicle array (n_vehicle) */
     int colliding;                   /* interface between the two trains */
     double closing_speed;            /* at the start [m/s] */
-    const CzTexts *judged_by;        /* names of the only checks that apply to it; NULL for all */
-    bool is_obstacle[2];             /* whether a train is one, and so not judged */
-    bool is_overload;                /* heavier than the others: judged for bottoming only */
-    bool has_reserves;               /* whether design rules require their reserves */
+    double rise; /* of the train ahead over the one behind, compared with their files [m] */
+    const CzTexts *judged_by; /* names of the only checks that apply to it; NULL for all */
+    bool is_obstacle[2];      /* whether a train is one, and so not judged */
+    bool is_overload;         /* heavier than the others: judged for bottoming only */
+    bool has_reserves;        /* whether design rules require their reserves */
 } CzScene;
 
 /* Whether a name denotes this scenario: its own name or that of its family. */

@@ -50,4 +50,20 @@ stops() {
     done
 }
 check "softer stops as a variable are refused by name" stops
+passes() { # crash boxes from 1.3 m, and the headstock of the wagon up to 1.2 m
+    cat >over.yaml <<'END'
+schema: 1
+title: crash boxes above a headstock
+catalogue: [regional-emu.yaml]
+simulation: {adhesion: {friction: 0.3}}
+parts: {emu-crash-box: {height_m: 1.4}}
+trains:
+  - {name: A, brake: {ratio: 0, axle_share: 0}, vehicles: [{name: A1, use: emu-cab-car}]}
+  - {name: W, role: obstacle, vehicles: [{name: W1, use: wagon-80t}]}
+scenarios: [{name: low, trains: [A, W], speed_km_h: 15}]
+END
+    "$C" check over.yaml -q >out.txt; grep '^override' out.txt | grep -q 'NOT CHECKED .*passes over' &&
+        { "$C" check over.yaml -q --set parts.emu-crash-box.height_m=1.05 >out.txt; grep '^override' out.txt | grep -q 'pass$'; }
+}
+check "override is not checked where an anti-climber passes the other end" passes
 finish

@@ -119,9 +119,9 @@ static CzStatus run(Trial *trial, const CzExplainOptions *options, CzError *erro
     CzStatus status = CZ_OK;
     for (int first = 0; first < trial->n_design && status == CZ_OK; first += PART) {
         const int left = trial->n_design - first, n = left < PART ? left : PART;
-        status = cz_evaluate(trial->evaluator, n,
-                             trial->x + (size_t)first * (size_t)trial->n_variable, false,
-                             trial->evaluation + first, error);
+        status =
+            cz_evaluate(trial->evaluator, n, trial->x + (size_t)first * (size_t)trial->n_variable,
+                        false, trial->evaluation + first, error);
         if (options->progress != NULL)
             options->progress(first + n, trial->n_design, options->progress_data);
     }

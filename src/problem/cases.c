@@ -8,85 +8,53 @@
 #include "base/number.h"
 #include "problem/changes.h"
 #include "problem/keys.h"
-#include "tree/merge.h"
+#include "tree/write_node.h"
 
-/* Context for writing scenarios as nodes. */
-typedef struct Writer {
-    CzArena *arena;
-    CzNode place;
-} Writer;
-
-static CzNode *make_node(const Writer *writer, CzNodeKind kind, int room) {
-    CzNode *node = cz_arena_allocate(writer->arena, 1, sizeof *node);
-    if (node == NULL)
-        return NULL;
-    *node = writer->place;
-    node->kind = kind;
-    node->n_entry = 0;
-    node->entry = cz_arena_allocate(writer->arena, (size_t)room + 1, sizeof *node->entry);
-    return node->entry != NULL ? node : NULL;
-}
-
-static bool put(const Writer *writer, CzNode *mapping, const char *key, const CzNode *value) {
-    return mapping != NULL &&
-           cz_node_append(writer->arena, mapping, key, &writer->place, value, &cz_no_trail);
-}
-
-static const CzNode *text(const Writer *writer, const char *value) {
-    return cz_node_name(writer->arena, value, &writer->place);
-}
-
-static const CzNode *number(const Writer *writer, double value) {
-    char digits[CZ_NUMBER_TEXT];
-    return cz_node_text(writer->arena, cz_number_print(digits, value), &writer->place);
-}
-
-static const CzNode *make_change(const Writer *writer, const CzCaseChange *change) {
+static const CzNode *make_change(const CzNodeWriter *writer, const CzCaseChange *change) {
     static const char *const keys[] = {
         [CZ_CASE_VALUE] = "value", [CZ_CASE_FACTOR] = "factor", [CZ_CASE_ADD] = "add"};
-    CzNode *node = make_node(writer, CZ_NODE_MAPPING, 2);
-    const bool is_made = put(writer, node, "path", text(writer, change->path)) &&
-                         put(writer, node, keys[change->kind], number(writer, change->number));
+    CzNode *node = cz_write_node(writer, CZ_NODE_MAPPING, 2);
+    const bool is_made =
+        cz_write_entry(writer, node, "path", cz_write_name(writer, change->path)) &&
+        cz_write_entry(writer, node, keys[change->kind], cz_write_number(writer, change->number));
     return is_made ? node : NULL;
 }
 
-static const CzNode *make_scenario(const Writer *writer, const CzProblem *problem,
+static const CzNode *make_scenario(const CzNodeWriter *writer, const CzProblem *problem,
                                    const CzCase *made) {
-    CzNode *node = make_node(writer, CZ_NODE_MAPPING, 4);
-    CzNode *changes = make_node(writer, CZ_NODE_LIST, made->n_change);
+    CzNode *node = cz_write_node(writer, CZ_NODE_MAPPING, 4);
+    CzNode *changes = cz_write_node(writer, CZ_NODE_LIST, made->n_change);
     for (int i = 0; changes != NULL && i < made->n_change; i++) {
-        const CzNode *change = make_change(writer, &made->change[i]);
-        if (change == NULL)
+        if (!cz_write_item(changes, make_change(writer, &made->change[i])))
             return NULL;
-        changes->entry[changes->n_entry++] = (CzEntry){.value = change, .trail = &cz_no_trail};
     }
     const char *like = problem->input.scenarios[made->scenario].name;
     const bool is_made =
-        put(writer, node, "name", text(writer, made->name)) &&
-        put(writer, node, "like", text(writer, like)) &&
-        put(writer, node, "reserves",
+        cz_write_entry(writer, node, "name", cz_write_name(writer, made->name)) &&
+        cz_write_entry(writer, node, "like", cz_write_name(writer, like)) &&
+        cz_write_entry(
+            writer, node, "reserves",
             cz_node_text(writer->arena, made->reserves ? "true" : "false", &writer->place)) &&
-        put(writer, node, "changes", changes);
+        cz_write_entry(writer, node, "changes", changes);
     return is_made ? node : NULL;
 }
 
 /* The list of scenarios of a tree with further ones; NULL without memory. */
-static const CzNode *add_scenarios(const Writer *writer, const CzProblem *problem, int n_case,
+static const CzNode *add_scenarios(const CzNodeWriter *writer, const CzProblem *problem, int n_case,
                                    const CzCase *cases) {
     const CzEntry *own = cz_node_find_list(problem->tree.root, "scenarios");
     CzNode *list = own != NULL ? cz_node_copy(writer->arena, own->value, n_case)
-                               : make_node(writer, CZ_NODE_LIST, n_case + 1);
+                               : cz_write_node(writer, CZ_NODE_LIST, n_case + 1);
     if (own == NULL && list != NULL) { /* the trains as written */
-        CzNode *first = make_node(writer, CZ_NODE_MAPPING, 1);
-        if (!put(writer, first, "name", text(writer, problem->input.scenarios[0].name)))
+        CzNode *first = cz_write_node(writer, CZ_NODE_MAPPING, 1);
+        if (!cz_write_entry(writer, first, "name",
+                            cz_write_name(writer, problem->input.scenarios[0].name)))
             return NULL;
-        list->entry[list->n_entry++] = (CzEntry){.value = first, .trail = &cz_no_trail};
+        cz_write_item(list, first);
     }
     for (int i = 0; list != NULL && i < n_case; i++) {
-        const CzNode *scenario = make_scenario(writer, problem, &cases[i]);
-        if (scenario == NULL)
+        if (!cz_write_item(list, make_scenario(writer, problem, &cases[i])))
             return NULL;
-        list->entry[list->n_entry++] = (CzEntry){.value = scenario, .trail = &cz_no_trail};
     }
     return list;
 }
@@ -95,14 +63,13 @@ static const CzNode *add_scenarios(const Writer *writer, const CzProblem *proble
 static bool extend_tree(CzProblem *made, const CzProblem *problem, int n_case,
                         const CzCase *cases) {
     CzReader *reader = &made->reader;
-    const CzSource *source = cz_sources_add(&reader->sources, "(cases)", ".", "", 0);
-    const Writer writer = {.arena = &reader->arena,
-                           .place = {.source = source, .line = 1, .column = 1}};
-    const CzNode *list = source != NULL ? add_scenarios(&writer, problem, n_case, cases) : NULL;
+    const CzNodeWriter writer = cz_node_writer(reader, "(cases)");
+    const CzNode *list =
+        writer.place.source != NULL ? add_scenarios(&writer, problem, n_case, cases) : NULL;
     CzNode *root =
         list != NULL ? cz_node_without(&reader->arena, made->tree.root, "scenarios", 1) : NULL;
     made->tree.root = root;
-    return root != NULL && put(&writer, root, "scenarios", list);
+    return root != NULL && cz_write_entry(&writer, root, "scenarios", list);
 }
 
 bool cz_problem_take_targets(CzProblem *made, const CzProblem *problem) {
@@ -145,14 +112,15 @@ CzStatus cz_problem_read_cases(const CzProblem *problem, int n_case, const CzCas
 
 /* ---- other stages of a device ---- */
 
-static const CzNode *make_stage(const Writer *writer, const CzStage *stage) {
+static const CzNode *make_stage(const CzNodeWriter *writer, const CzStage *stage) {
     const char *zone = cz_word_sets[CZ_WORDS_ZONE].word[stage->zone].word;
-    CzNode *node = make_node(writer, CZ_NODE_MAPPING, 4);
-    const bool is_made = put(writer, node, "stroke_m", number(writer, stage->stroke)) &&
-                         put(writer, node, "force_N", number(writer, stage->force)) &&
-                         put(writer, node, "zone", text(writer, zone)) &&
-                         (isnan(stage->end_force) ||
-                          put(writer, node, "end_force_N", number(writer, stage->end_force)));
+    CzNode *node = cz_write_node(writer, CZ_NODE_MAPPING, 4);
+    const bool is_made =
+        cz_write_entry(writer, node, "stroke_m", cz_write_number(writer, stage->stroke)) &&
+        cz_write_entry(writer, node, "force_N", cz_write_number(writer, stage->force)) &&
+        cz_write_entry(writer, node, "zone", cz_write_name(writer, zone)) &&
+        (isnan(stage->end_force) ||
+         cz_write_entry(writer, node, "end_force_N", cz_write_number(writer, stage->end_force)));
     return is_made ? node : NULL;
 }
 
@@ -160,20 +128,17 @@ static const CzNode *make_stage(const Writer *writer, const CzStage *stage) {
 static bool set_stages(CzProblem *made, const char *place, int n_stage, const CzStage *stage,
                        CzSetting *setting) {
     CzReader *reader = &made->reader;
-    const CzSource *source = cz_sources_add(&reader->sources, "(stages)", ".", "", 0);
-    const Writer writer = {.arena = &reader->arena,
-                           .place = {.source = source, .line = 1, .column = 1}};
+    const CzNodeWriter writer = cz_node_writer(reader, "(stages)");
     char path[CZ_PATH_ROOM + 8];
     snprintf(path, sizeof path, "%s.stages", place);
     const char *copy = cz_arena_copy_text(&reader->arena, path, strlen(path));
-    CzNode *list = source != NULL ? make_node(&writer, CZ_NODE_LIST, n_stage) : NULL;
+    CzNode *list =
+        writer.place.source != NULL ? cz_write_node(&writer, CZ_NODE_LIST, n_stage) : NULL;
     if (copy == NULL || list == NULL)
         return false;
     for (int i = 0; i < n_stage; i++) {
-        const CzNode *node = make_stage(&writer, &stage[i]);
-        if (node == NULL)
+        if (!cz_write_item(list, make_stage(&writer, &stage[i])))
             return false;
-        list->entry[list->n_entry++] = (CzEntry){.value = node, .trail = &cz_no_trail};
     }
     *setting = (CzSetting){.path = copy,
                            .place = cz_node_text(&reader->arena, copy, &writer.place),

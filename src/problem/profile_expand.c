@@ -10,6 +10,7 @@
 #include "problem/rules.h"
 #include "tree/merge.h"
 #include "tree/trains.h"
+#include "tree/write_node.h"
 
 typedef struct Expansion {
     CzProblem *problem;
@@ -249,18 +250,12 @@ static bool is_kept(const CzEntry *entry, const CzNode *partner) {
 
 /* The names of the two trains that collide; NULL without memory. */
 static const CzNode *make_pair(Expansion *expansion, const char *partner, const CzNode *place) {
-    CzArena *arena = expansion->arena;
-    CzNode *list = cz_arena_allocate(arena, 1, sizeof *list);
-    CzEntry *entry = cz_arena_allocate(arena, 2, sizeof *entry);
-    if (list == NULL || entry == NULL)
-        return NULL;
-    entry[0].value = cz_node_name(arena, expansion->partners.moving, place);
-    entry[1].value = cz_node_name(arena, partner, place);
-    *list = *place;
-    list->kind = CZ_NODE_LIST;
-    list->n_entry = 2;
-    list->entry = entry;
-    return entry[0].value != NULL && entry[1].value != NULL ? list : NULL;
+    const CzNodeWriter writer = {.arena = expansion->arena, .place = *place};
+    CzNode *list = cz_write_node(&writer, CZ_NODE_LIST, 2);
+    const bool is_made = list != NULL &&
+                         cz_write_item(list, cz_write_name(&writer, expansion->partners.moving)) &&
+                         cz_write_item(list, cz_write_name(&writer, partner));
+    return is_made ? list : NULL;
 }
 
 /* The key that decides the speed of a scenario. */
@@ -291,8 +286,7 @@ static void add_scenario(Expansion *expansion, const CzNode *written,
                        &cz_no_trail) &&
         cz_node_append(arena, node, "speed_km_h", place, cz_node_text(arena, digits, place),
                        &cz_no_trail))
-        expansion->scenarios->entry[expansion->scenarios->n_entry++] =
-            (CzEntry){.value = node, .trail = &cz_no_trail};
+        cz_write_item(expansion->scenarios, node);
 }
 
 /* Whether the moving train has the coupled interface that a scenario perturbs. */

@@ -6,6 +6,7 @@
 #include "base/suggest.h"
 #include "tree/load.h"
 #include "tree/merge.h"
+#include "tree/write_node.h"
 
 /* ---- trains of the problem ---- */
 
@@ -47,11 +48,6 @@ static const CzNode *find_train(const CzNode *list, const char *name) {
     return NULL;
 }
 
-static void append(CzPartners *partners, const CzNode *train) {
-    partners->trains->entry[partners->trains->n_entry++] =
-        (CzEntry){.value = train, .trail = &cz_no_trail};
-}
-
 /* ---- the identical train ---- */
 
 /* The problem's second train when it is a copy of the first. */
@@ -71,37 +67,22 @@ static const char *free_name(const CzPartners *partners) {
     return names[N_NAME - 1];
 }
 
-/* A mapping with room for n entries, at a place; NULL without memory. */
-static CzNode *make_mapping(CzArena *arena, int n, const CzNode *place) {
-    CzNode *node = cz_arena_allocate(arena, 1, sizeof *node);
-    CzEntry *entry = cz_arena_allocate(arena, (size_t)n, sizeof *entry);
-    if (node == NULL || entry == NULL)
-        return NULL;
-    *node = (CzNode){.kind = CZ_NODE_MAPPING,
-                     .line = place->line,
-                     .column = place->column,
-                     .source = place->source,
-                     .entry = entry};
-    return node;
-}
-
-static bool put(CzArena *arena, CzNode *mapping, const char *key, const char *value) {
-    return mapping != NULL && cz_node_append(arena, mapping, key, mapping,
-                                             cz_node_text(arena, value, mapping), &cz_no_trail);
+static bool put(const CzNodeWriter *writer, CzNode *mapping, const char *key, const char *value) {
+    return cz_write_entry(writer, mapping, key, cz_node_text(writer->arena, value, &writer->place));
 }
 
 /* A copy of the moving train that faces it and stands; its scenarios set the brake. */
 static const CzNode *make_copy(CzPartners *partners, const CzNode *place) {
-    CzArena *arena = &partners->reader->arena;
-    CzNode *brake = make_mapping(arena, 2, place);
-    CzNode *train = make_mapping(arena, 5, place);
-    if (!put(arena, brake, "ratio", "0") || !put(arena, brake, "axle_share", "1") ||
-        !put(arena, train, "name", free_name(partners)) ||
-        !put(arena, train, "copy", partners->moving) || !put(arena, train, "reversed", "true") ||
-        !put(arena, train, "speed_m_s", "0") ||
-        !cz_node_append(arena, train, "brake", place, brake, &cz_no_trail))
+    const CzNodeWriter writer = {.arena = &partners->reader->arena, .place = *place};
+    CzNode *brake = cz_write_node(&writer, CZ_NODE_MAPPING, 2);
+    CzNode *train = cz_write_node(&writer, CZ_NODE_MAPPING, 5);
+    if (!put(&writer, brake, "ratio", "0") || !put(&writer, brake, "axle_share", "1") ||
+        !put(&writer, train, "name", free_name(partners)) ||
+        !put(&writer, train, "copy", partners->moving) ||
+        !put(&writer, train, "reversed", "true") || !put(&writer, train, "speed_m_s", "0") ||
+        !cz_write_entry(&writer, train, "brake", brake))
         return NULL;
-    append(partners, train);
+    cz_write_item(partners->trains, train);
     return train;
 }
 
@@ -149,7 +130,6 @@ const CzNode *cz_partners_take(CzPartners *partners, const CzNode *named) {
         partners->parts = cz_load_parts(reader, partners->profile);
     partners->has_parts = true;
     train = cz_parts_write_out(reader, &partners->parts, train, &cz_no_trail);
-    if (train != NULL)
-        append(partners, train);
+    cz_write_item(partners->trains, train);
     return train;
 }

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/number.h"
 #include "problem/changes.h"
-#include "tree/merge.h"
+#include "tree/write_node.h"
 
 #define SIZE_OF_ZERO 0.1 /* change of 100 % of a length that is 0 [m] (ours) */
 
@@ -109,52 +109,29 @@ CzStatus cz_problem_find_varying(const CzProblem *problem, const bool *is_left_o
 
 /* ---- the problem with these variables ---- */
 
-static CzNode *make_node(CzArena *arena, const CzNode *place, CzNodeKind kind, int room) {
-    CzNode *node = cz_arena_allocate(arena, 1, sizeof *node);
-    if (node == NULL)
-        return NULL;
-    *node = *place;
-    node->kind = kind;
-    node->entry = cz_arena_allocate(arena, (size_t)room + 1, sizeof *node->entry);
-    return node->entry != NULL ? node : NULL;
-}
-
-static bool put(CzArena *arena, CzNode *mapping, const char *key, const CzNode *place,
-                const CzNode *value) {
-    return mapping != NULL && cz_node_append(arena, mapping, key, place, value, &cz_no_trail);
-}
-
-static const CzNode *make_variable(CzArena *arena, const CzNode *place,
-                                   const CzVaryingNumber *number) {
-    char min[CZ_NUMBER_TEXT], max[CZ_NUMBER_TEXT];
-    CzNode *node = make_node(arena, place, CZ_NODE_MAPPING, 3);
-    cz_number_print(min, fmax(number->value - number->size, number->min));
-    cz_number_print(max, fmin(number->value + number->size, number->max));
+static const CzNode *make_variable(const CzNodeWriter *writer, const CzVaryingNumber *number) {
+    const double min = fmax(number->value - number->size, number->min);
+    const double max = fmin(number->value + number->size, number->max);
+    CzNode *node = cz_write_node(writer, CZ_NODE_MAPPING, 3);
     const bool is_made =
-        put(arena, node, "path", place, cz_node_name(arena, number->path, place)) &&
-        put(arena, node, "min", place, cz_node_text(arena, min, place)) &&
-        put(arena, node, "max", place, cz_node_text(arena, max, place));
+        cz_write_entry(writer, node, "path", cz_write_name(writer, number->path)) &&
+        cz_write_entry(writer, node, "min", cz_write_number(writer, min)) &&
+        cz_write_entry(writer, node, "max", cz_write_number(writer, max));
     return is_made ? node : NULL;
 }
 
 /* Gives the tree an optimisation with these variables only; false without memory. */
 static bool set_variables(CzProblem *made, int n, const CzVaryingNumber *number) {
-    CzReader *reader = &made->reader;
-    CzArena *arena = &reader->arena;
-    const CzSource *source = cz_sources_add(&reader->sources, "(variables)", ".", "", 0);
-    const CzNode place = {.source = source, .line = 1, .column = 1};
-    CzNode *list = source != NULL ? make_node(arena, &place, CZ_NODE_LIST, n) : NULL;
-    CzNode *optimise = make_node(arena, &place, CZ_NODE_MAPPING, 1);
-    for (int i = 0; list != NULL && i < n; i++) {
-        const CzNode *variable = make_variable(arena, &place, &number[i]);
-        if (variable == NULL)
+    const CzNodeWriter writer = cz_node_writer(&made->reader, "(variables)");
+    CzNode *list = writer.place.source != NULL ? cz_write_node(&writer, CZ_NODE_LIST, n) : NULL;
+    CzNode *optimise = cz_write_node(&writer, CZ_NODE_MAPPING, 1);
+    for (int i = 0; list != NULL && i < n; i++)
+        if (!cz_write_item(list, make_variable(&writer, &number[i])))
             return false;
-        list->entry[list->n_entry++] = (CzEntry){.value = variable, .trail = &cz_no_trail};
-    }
-    CzNode *root = cz_node_without(arena, made->tree.root, "optimise", 1);
+    CzNode *root = cz_node_without(writer.arena, made->tree.root, "optimise", 1);
     made->tree.root = root;
-    return root != NULL && list != NULL && put(arena, optimise, "variables", &place, list) &&
-           put(arena, root, "optimise", &place, optimise);
+    return list != NULL && cz_write_entry(&writer, optimise, "variables", list) &&
+           cz_write_entry(&writer, root, "optimise", optimise);
 }
 
 CzStatus cz_problem_read_varying(const CzProblem *problem, int n, const CzVaryingNumber *number,

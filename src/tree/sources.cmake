@@ -9,4 +9,5 @@ set(CZ_SOURCES_tree
     segments.c
     settings.c
     trains.c
+    write_node.c
 )

@@ -9,6 +9,7 @@ set(CZ_SOURCES_base
     memory_text.c
     number.c
     roots.c
+    stream.c
     suggest.c
     symmetric.c
     text.c

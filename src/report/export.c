@@ -10,10 +10,12 @@
 #include "base/arena.h"
 #include "base/error.h"
 #include "base/number.h"
+#include "base/stream.h"
 #include "report/database.h"
 #include "report/temporary.h"
 
 #include <errno.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -199,20 +201,8 @@ static CzStatus put_document(CzDatabase *database, const Part *part, CzError *er
 /* Reads a file whole; NULL without memory, or with the reason in errno. */
 static char *read_file(const char *path) {
     FILE *stream = fopen(path, "rb");
-    size_t n = 0, size = 1 << 16;
-    char *text = stream != NULL ? malloc(size) : NULL;
-    while (text != NULL) {
-        n += fread(text + n, 1, size - n - 1, stream);
-        if (n + 1 < size)
-            break;
-        size *= 2;
-        char *larger = realloc(text, size);
-        if (larger == NULL)
-            free(text);
-        text = larger;
-    }
-    if (text != NULL)
-        text[n] = '\0';
+    size_t n;
+    char *text = stream != NULL ? cz_stream_read(stream, SIZE_MAX, &n) : NULL;
     if (stream != NULL)
         fclose(stream);
     return text;

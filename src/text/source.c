@@ -1,6 +1,7 @@
 /* Files as text. */
 #include "text/source.h"
 
+#include "base/stream.h"
 #include "base/text.h"
 
 #include <errno.h>
@@ -81,24 +82,6 @@ CzSource *cz_sources_add(CzSources *sources, const char *name, const char *folde
     return source;
 }
 
-/* Reads a stream to its end or one byte beyond the limit; NULL without memory. */
-static char *read_stream(FILE *stream, size_t *n_byte) {
-    size_t size = 64 * 1024;
-    char *text = malloc(size);
-    *n_byte = 0;
-    while (text != NULL) {
-        *n_byte += fread(text + *n_byte, 1, size - *n_byte, stream);
-        if (*n_byte < size || *n_byte > CZ_MOST_BYTES)
-            break;
-        size *= 2;
-        char *larger = realloc(text, size);
-        if (larger == NULL)
-            free(text);
-        text = larger;
-    }
-    return text;
-}
-
 /* Reason why the last call on a file failed, in the same words in every locale. */
 static const char *why_failed(void) {
     switch (errno) {
@@ -175,7 +158,7 @@ CzSource *cz_sources_read(CzSources *sources, CzMistakes *mistakes, const char *
             mistakes->arena->out_of_memory = true;
         return NULL;
     }
-    *text = read_stream(stream, n_byte);
+    *text = cz_stream_read(stream, CZ_MOST_BYTES, n_byte);
     if (*text != NULL && *n_byte <= CZ_MOST_BYTES) {
         const size_t n_mark = cz_source_mark(*text, *n_byte);
         *n_byte -= n_mark;

@@ -4,10 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Margins of a yes or no in a search. A step has no slope for a search; the continuous checks next
- * to it have. */
-static const double satisfied_flag = 1, broken_flag = -0.01;
-
 /* A margin below this is rounding error and counts as 0. */
 static const double rounding = 1e-12;
 
@@ -17,7 +13,7 @@ static double margin_of(double value, double limit, bool is_minimum, double scal
         return NAN;
     const double room = is_minimum ? value - limit : limit - value;
     if (scale == CZ_FLAG_SCALE)
-        return room >= 0 ? satisfied_flag : broken_flag;
+        return room >= 0 ? CZ_SATISFIED_FLAG : CZ_BROKEN_FLAG;
     const double margin = room / fmax(fabs(limit), scale);
     return fabs(margin) < rounding ? 0 : margin;
 }
@@ -95,7 +91,7 @@ double cz_check_constraint(const CzCheckResult *result, double required_margin) 
     if (!isnan(result->margin))
         return required_margin - result->margin;
     const bool fails = result->verdict == CZ_VERDICT_FAIL; /* else satisfied, or not applicable */
-    return required_margin - (fails ? broken_flag : satisfied_flag);
+    return required_margin - (fails ? CZ_BROKEN_FLAG : CZ_SATISFIED_FLAG);
 }
 
 /* Whether a check is satisfied exactly when it is satisfied at each place, as when the worst place

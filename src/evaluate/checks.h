@@ -13,6 +13,11 @@
 /* Scenario number of a check of the design itself. */
 enum { CZ_NO_SCENARIO = -1 };
 
+/* Margins of a yes or no in a search. A step has no slope for a search; the continuous checks next
+ * to it have. */
+#define CZ_SATISFIED_FLAG 1.0
+#define CZ_BROKEN_FLAG (-0.01)
+
 typedef struct CzCheck {
     const char *name;
     int scenario;          /* or CZ_NO_SCENARIO */

@@ -18,8 +18,6 @@
 static const double steps[] = {-0.5, -0.25, -0.1, 0.1, 0.25, 0.5};
 enum { N_STEP = sizeof steps / sizeof *steps, MOST_NUMBERS = 64 };
 
-#define BROKEN_FLAG (-0.01) /* margins of a yes or no */
-#define KEPT_FLAG 1.0
 #define SMALLEST_GAIN 1e-3 /* of the margin, for a change that helps (ours) */
 
 /* One number that is varied. */
@@ -133,8 +131,8 @@ static CzStatus run(Trial *trial, const CzExplainOptions *options, CzError *erro
 static double margin_of(const CzCheckResult *check) {
     if (!check->is_flag)
         return check->margin;
-    return check->verdict == CZ_VERDICT_FAIL   ? BROKEN_FLAG
-           : cz_verdict_passes(check->verdict) ? KEPT_FLAG
+    return check->verdict == CZ_VERDICT_FAIL   ? CZ_BROKEN_FLAG
+           : cz_verdict_passes(check->verdict) ? CZ_SATISFIED_FLAG
                                                : NAN;
 }
 

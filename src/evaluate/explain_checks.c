@@ -27,12 +27,6 @@ typedef struct Site {
     const CzElementResult *element;
 } Site;
 
-/* Whether a text is the name of a vehicle, perhaps with an end behind it. */
-static bool is_of_vehicle(const char *where, const char *vehicle) {
-    const size_t n = strlen(vehicle);
-    return strncmp(where, vehicle, n) == 0 && (where[n] == '\0' || where[n] == ' ');
-}
-
 /* The element of a name; of the two couplers of a vehicle the one that has the larger force. */
 static void find_element(Site *site, const char *where) {
     for (int i = 0; i < site->summary->n_interface; i++)
@@ -53,13 +47,12 @@ static void find_place(Site *site, const char *where, int colliding) {
             site->interface[0] = i;
     if (site->interface[0] < 0)
         find_element(site, where);
-    for (int i = 0; i < site->summary->n_vehicle && site->interface[0] < 0; i++) {
-        if (!is_of_vehicle(where, site->summary->vehicle[i].name))
-            continue;
-        const char *end = where + strlen(site->summary->vehicle[i].name);
-        site->vehicle = i;
-        site->interface[0] = strcmp(end, " front") == 0 ? i : i - 1;
-        site->interface[1] = *end == '\0' ? i : -1;
+    const int vehicle = site->interface[0] < 0 ? cz_where_vehicle(site->summary, where) : -1;
+    if (vehicle >= 0) {
+        const char *end = where + strlen(site->summary->vehicle[vehicle].name);
+        site->vehicle = vehicle;
+        site->interface[0] = strcmp(end, " front") == 0 ? vehicle : vehicle - 1;
+        site->interface[1] = *end == '\0' ? vehicle : -1;
     }
     if (site->interface[1] >= site->summary->n_interface)
         site->interface[1] = -1;

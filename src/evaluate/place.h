@@ -2,6 +2,8 @@
 #ifndef CZ_EVALUATE_PLACE_H
 #define CZ_EVALUATE_PLACE_H
 
+#include <string.h>
+
 #include "crushzone/simulate.h"
 #include "evaluate/scene.h"
 
@@ -52,6 +54,20 @@ typedef struct CzSubject {
     double rate;             /* crush rate for tube forces [m/s] */
     const bool *is_obstacle; /* whether a vehicle is part of an obstacle (n_vehicle); NULL: none */
 } CzSubject;
+
+/* Whether the name of a place begins with a name, such as "A4 front" with A4. */
+static inline bool cz_where_begins(const char *where, const char *name) {
+    const size_t n = strlen(name);
+    return strncmp(where, name, n) == 0 && (where[n] == '\0' || where[n] == ' ');
+}
+
+/* Number of the vehicle with whose name that of a place begins; -1 for none. */
+static inline int cz_where_vehicle(const CzRunSummary *run, const char *where) {
+    for (int i = 0; i < run->n_vehicle; i++)
+        if (cz_where_begins(where, run->vehicle[i].name))
+            return i;
+    return -1;
+}
 
 /* Whether a text matches a pattern in which `*` stands for any text and `?` for any letter. */
 bool cz_matches(const char *pattern, const char *text);

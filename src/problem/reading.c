@@ -140,29 +140,29 @@ void cz_problem_bind(CzProblem *problem, const CzTree *tree) {
         add_scenario(problem, set.root);
 }
 
-int cz_input_find_scenario(const CzInput *input, const char *name, CzSuggestion *nearest) {
-    for (int i = 0; i < input->n_scenarios; i++) {
-        const char *const known[2] = {input->scenarios[i].name, input->scenarios[i].family};
-        for (int k = 0; k < 2; k++) {
-            if (known[k] != NULL && strcmp(known[k], name) == 0)
-                return i;
-            if (known[k] != NULL)
-                cz_suggest(nearest, name, known[k]);
-        }
+/* Whether a scenario has a name, or its family has; else both are suggested. */
+static bool has_name(const char *own, const char *family, const char *name, CzSuggestion *nearest) {
+    const char *const known[2] = {own, family};
+    for (int k = 0; k < 2; k++) {
+        if (known[k] != NULL && strcmp(known[k], name) == 0)
+            return true;
+        if (known[k] != NULL)
+            cz_suggest(nearest, name, known[k]);
     }
+    return false;
+}
+
+int cz_input_find_scenario(const CzInput *input, const char *name, CzSuggestion *nearest) {
+    for (int i = 0; i < input->n_scenarios; i++)
+        if (has_name(input->scenarios[i].name, input->scenarios[i].family, name, nearest))
+            return i;
     return -1;
 }
 
 bool cz_profile_has_scenario(const CzProfile *profile, const char *name, CzSuggestion *nearest) {
-    for (int i = 0; i < profile->n_scenarios; i++) {
-        const char *const known[2] = {profile->scenarios[i].name, profile->scenarios[i].family};
-        for (int k = 0; k < 2; k++) {
-            if (known[k] != NULL && strcmp(known[k], name) == 0)
-                return true;
-            if (known[k] != NULL)
-                cz_suggest(nearest, name, known[k]);
-        }
-    }
+    for (int i = 0; i < profile->n_scenarios; i++)
+        if (has_name(profile->scenarios[i].name, profile->scenarios[i].family, name, nearest))
+            return true;
     return false;
 }
 

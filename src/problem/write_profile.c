@@ -57,15 +57,17 @@ static int compare_names(const void *a, const void *b) {
     return strcmp(a, b);
 }
 
+/* Whether one of the first n scenarios of a profile has a name. */
+static bool is_among(const char *name, const CzProfile *profile, int n) {
+    CzSuggestion nearest = {0};
+    return CZ_FIND_NAMED(name, CzProfileScenario, profile->scenarios, n, &nearest) >= 0;
+}
+
 /* Number of scenarios of different names. */
 static int count_scenarios(const CzProfile *profile) {
     int n = 0;
-    for (int i = 0; i < profile->n_scenarios; i++) {
-        bool is_new = true;
-        for (int k = 0; k < i; k++)
-            is_new &= strcmp(profile->scenarios[k].name, profile->scenarios[i].name) != 0;
-        n += is_new;
-    }
+    for (int i = 0; i < profile->n_scenarios; i++)
+        n += !is_among(profile->scenarios[i].name, profile, i);
     return n;
 }
 
@@ -159,22 +161,13 @@ static void write_conditions(const CzProfileScenario *scenario, FILE *stream) {
         fprintf(stream, ", payload share %s", CZ_SHORT(scenario->payload_share));
 }
 
-static bool has_scenario(const CzProfile *profile, const char *name) {
-    for (int i = 0; i < profile->n_scenarios; i++)
-        if (strcmp(profile->scenarios[i].name, name) == 0)
-            return true;
-    return false;
-}
-
 /* The scenarios that do not apply in a category, each once. */
 static void write_others(const CzProfile *whole, const CzProfile *profile, FILE *stream) {
     bool is_first = true;
     for (int i = 0; i < whole->n_scenarios; i++) {
         const CzProfileScenario *scenario = &whole->scenarios[i];
-        bool is_told = has_scenario(profile, scenario->name);
-        for (int k = 0; k < i; k++)
-            is_told |= strcmp(whole->scenarios[k].name, scenario->name) == 0;
-        if (is_told)
+        if (is_among(scenario->name, profile, profile->n_scenarios) ||
+            is_among(scenario->name, whole, i))
             continue;
         fputs(is_first ? "  do not apply:\n" : "", stream);
         is_first = false;

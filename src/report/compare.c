@@ -15,12 +15,8 @@ int cz_compared_scenario(const CzReport *report, int i) {
     if (i == 0)
         return own;
     const CzRunSummary *first = cz_compared_run(report, 0);
-    for (int k = 0; first != NULL && k < run[i].evaluation->n_run; k++) {
-        const CzRunSummary *kept = cz_kept_run(run[i].evaluation, k);
-        if (kept != NULL && strcmp(kept->scenario, first->scenario) == 0)
-            return k;
-    }
-    return own;
+    const int same = first != NULL ? cz_find_kept_run(run[i].evaluation, first->scenario) : -1;
+    return same >= 0 ? same : own;
 }
 
 const CzRunSummary *cz_compared_run(const CzReport *report, int i) {

@@ -24,7 +24,7 @@ typedef struct Comparing {
     CzArena arena;
     const CzReport *report;
     Listed listed[CZ_MOST_COMPARED];
-    CzIndex told; /* parts that only some problems have and that were listed */
+    CzIndex missing; /* parts that only some problems have and that were listed */
 } Comparing;
 
 /* ---- inputs ---- */
@@ -104,9 +104,9 @@ static void add_missing(Comparing *comparing, const char *path, size_t n) {
     double *number = cz_arena_numbers(arena, (size_t)n_run);
     const char *name = cz_arena_copy_text(arena, path, n);
     if (value == NULL || origin == NULL || number == NULL || name == NULL ||
-        cz_index_find(&comparing->told, path, n) >= 0)
+        cz_index_find(&comparing->missing, path, n) >= 0)
         return;
-    cz_index_add(&comparing->told, name, n, 0);
+    cz_index_add(&comparing->missing, name, n, 0);
     for (int i = 0; i < n_run; i++) {
         const bool has = cz_index_find(&comparing->listed[i].prefix, path, n) >= 0;
         value[i] = has ? "given" : NULL;
@@ -114,6 +114,13 @@ static void add_missing(Comparing *comparing, const char *path, size_t n) {
         number[i] = NAN;
     }
     add_input(comparing, &(CzInputDifference){name, 1, "", value, number, origin});
+}
+
+/* The number of a value in the unit of the first. */
+static double in_unit_of(const CzProblemValue *first, const CzProblemValue *value) {
+    return strcmp(value->unit, first->unit) != 0 && !isnan(first->number)
+               ? cz_problem_value_in(value, first->unit)
+               : value->number;
 }
 
 /* Compares the value at a path of all problems. */
@@ -138,14 +145,8 @@ static void compare_input(Comparing *comparing, const CzProblemValue *first) {
         differs |= its == NULL || strcmp(its->text, first->text) != 0;
         value[i] = its != NULL ? its->text : NULL;
         origin[i] = its != NULL ? its->origin : "";
-        number[i] = its != NULL ? its->number : NAN;
+        number[i] = its != NULL ? in_unit_of(first, its) : NAN;
     }
-    if (differs) /* numbers in the unit of the first */
-        for (int i = 0; i < n_run; i++) {
-            const CzProblemValue *its = find(&comparing->listed[i], first->path);
-            if (its != NULL && strcmp(its->unit, first->unit) != 0 && !isnan(first->number))
-                number[i] = cz_problem_value_in(its, first->unit);
-        }
     if (differs)
         add_input(comparing,
                   &(CzInputDifference){first->path, 1, cz_problem_unit_symbol(first->unit), value,
@@ -244,7 +245,7 @@ CzStatus cz_comparison_make(const CzReport *report, CzComparison **comparison, C
         return cz_no_memory(error, "a comparison");
     comparing->report = report;
     comparing->comparison.n_run = report->n_compared;
-    comparing->told.arena = &comparing->arena;
+    comparing->missing.arena = &comparing->arena;
     CzStatus status = list_inputs(comparing, error);
     if (status == CZ_OK) {
         compare_inputs(comparing);

@@ -164,12 +164,8 @@ static void write_check(const Suites *suites, const CzCheckResult *check) {
 
 /* The run of a scenario that was kept; NULL for none. */
 static const CzRunSummary *run_of(const CzEvaluation *evaluation, const char *scenario) {
-    for (int i = 0; i < evaluation->n_run; i++) {
-        const CzRunSummary *run = cz_kept_run(evaluation, i);
-        if (run != NULL && strcmp(run->scenario, scenario) == 0)
-            return run;
-    }
-    return NULL;
+    const int found = cz_find_kept_run(evaluation, scenario);
+    return found >= 0 ? cz_kept_run(evaluation, found) : NULL;
 }
 
 static Count count_suite(const CzEvaluation *evaluation, const char *scenario) {

@@ -2,6 +2,7 @@
 #include "report/page_deciding.h"
 
 #include "base/error.h"
+#include "base/suggest.h"
 #include "evaluate/metric.h"
 #include "report/matrix.h"
 #include "report/runs.h"
@@ -19,11 +20,13 @@ static const struct {
 #include "report/deciding_figures.def"
 };
 
-static const CzMetricKind *kind_named(const char *name) {
-    for (int i = 0; name != NULL && i < cz_n_metric_kind(); i++)
-        if (strcmp(cz_metric_kind(i)->name, name) == 0)
-            return cz_metric_kind(i);
-    return NULL;
+static const CzMetricKind *kind_of(const CzCheckResult *check) {
+    CzSuggestion nearest = {0};
+    const int found = check->metric != NULL
+                          ? CZ_FIND_NAMED(check->metric, CzMetricKind, cz_metric_kind(0),
+                                          cz_n_metric_kind(), &nearest)
+                          : -1;
+    return found >= 0 ? cz_metric_kind(found) : NULL;
 }
 
 static CzChart chart_of(const CzMetricKind *kind) {
@@ -37,36 +40,23 @@ static CzChart chart_of(const CzMetricKind *kind) {
 
 /* ---- the place ---- */
 
-/* Whether the words of a place begin with a name. */
-static bool begins_with(const char *where, const char *name) {
-    const size_t n = strlen(name);
-    return strncmp(where, name, n) == 0 && (where[n] == '\0' || where[n] == ' ');
-}
-
-static int vehicle_of(const CzRunSummary *run, const char *where) {
-    for (int i = 0; i < run->n_vehicle; i++)
-        if (begins_with(where, run->vehicle[i].name))
-            return i;
-    return -1;
-}
-
 /* The interface of an interface, an element or a section. */
 static int interface_of(const CzRunSummary *run, const char *where) {
     for (int i = 0; i < run->n_interface; i++) {
-        if (begins_with(where, run->interface[i].name))
+        if (cz_where_begins(where, run->interface[i].name))
             return i;
         for (int e = 0; e < run->interface[i].n_element; e++)
             if (strcmp(where, run->interface[i].element[e].name) == 0)
                 return i;
     }
-    const int vehicle = vehicle_of(run, where);
+    const int vehicle = cz_where_vehicle(run, where);
     const int found = vehicle - (strstr(where, " rear") != NULL);
     return vehicle >= 0 && found < run->n_interface ? found : -1;
 }
 
 /* Finds the figure of a check on the page of its scenario; false where there is none. */
 static bool find_figure(const CzPage *page, const CzCheckResult *check, CzDecidingFigure *figure) {
-    const CzMetricKind *kind = kind_named(check->metric);
+    const CzMetricKind *kind = kind_of(check);
     if (kind == NULL || cz_level_is_of_design(kind->level))
         return false;
     *figure = (CzDecidingFigure){.page = page, .chart = chart_of(kind)};
@@ -74,20 +64,11 @@ static bool find_figure(const CzPage *page, const CzCheckResult *check, CzDecidi
     if (count == CZ_CHART_PER_INTERFACE)
         figure->index = interface_of(page->summary, check->where);
     else if (count == CZ_CHART_PER_CAR)
-        figure->index = vehicle_of(page->summary, check->where);
+        figure->index = cz_where_vehicle(page->summary, check->where);
     return figure->index >= 0 && figure->index < cz_chart_count(page, figure->chart);
 }
 
 /* ---- collecting ---- */
-
-static int run_named(const CzEvaluation *evaluation, const char *scenario) {
-    for (int i = 0; i < evaluation->n_run; i++) {
-        const CzRunSummary *run = cz_kept_run(evaluation, i);
-        if (run != NULL && strcmp(run->scenario, scenario) == 0)
-            return i;
-    }
-    return -1;
-}
 
 /* The page of a scenario, begun when it is needed first. */
 static CzStatus page_of(CzPage *page, int scenario, const CzPage **found, CzError *error) {
@@ -144,7 +125,7 @@ CzStatus cz_page_collect_deciding(CzPage *page, CzError *error) {
     for (int row = 0; row < matrix->n_row; row++) {
         const int column = cz_matrix_deciding(matrix, row);
         const CzCheckResult *check = column >= 0 ? cz_matrix_check(matrix, row, column) : NULL;
-        const int run = check != NULL ? run_named(page->evaluation, check->scenario) : -1;
+        const int run = check != NULL ? cz_find_kept_run(page->evaluation, check->scenario) : -1;
         const CzPage *of = NULL;
         CzDecidingFigure figure;
         page->deciding->of_row[row] = -1;

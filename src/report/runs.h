@@ -2,6 +2,8 @@
 #ifndef CZ_REPORT_RUNS_H
 #define CZ_REPORT_RUNS_H
 
+#include <string.h>
+
 #include "crushzone/evaluate.h"
 
 /* Summary of the run of a scenario; NULL when it was left out or not kept. */
@@ -9,6 +11,16 @@ static inline const CzRunSummary *cz_kept_run(const CzEvaluation *evaluation, in
     if (evaluation->run == NULL || evaluation->run[scenario] == NULL)
         return NULL;
     return cz_run_summary(evaluation->run[scenario]);
+}
+
+/* Number of the scenario of a name whose run was kept; -1 for none. */
+static inline int cz_find_kept_run(const CzEvaluation *evaluation, const char *scenario) {
+    for (int i = 0; i < evaluation->n_run; i++) {
+        const CzRunSummary *run = cz_kept_run(evaluation, i);
+        if (run != NULL && strcmp(run->scenario, scenario) == 0)
+            return i;
+    }
+    return -1;
 }
 
 /* Number of these runs. */

@@ -2,39 +2,20 @@
 #include "support/check.h"
 
 #include "evaluate/evaluator.h"
+#include "evaluate/judged_problem.h"
 #include "evaluate/metric.h"
 #include "evaluate/small_problem.h"
 
-/* An evaluator of the small problem with further lines, and the evaluation of the file's design. */
-typedef struct Case {
-    CzProblem *problem;
-    CzEvaluator *evaluator;
-    CzEvaluation evaluation;
-} Case;
-
 static Case judge(const char *more, bool keep_runs) {
-    Case made = {.problem = small_problem(more)};
-    CzError error = {0};
-    if (cz_evaluator_build(made.problem, NULL, &made.evaluator, &error) != CZ_OK)
-        fail_msg("%s", error.message);
-    assert_int_equal(cz_evaluate(made.evaluator, 1, NULL, keep_runs, &made.evaluation, &error),
-                     CZ_OK);
-    return made;
+    return judged(small_problem(more), keep_runs);
 }
 
-static void end(Case *made) {
-    cz_evaluation_free(&made->evaluation);
-    cz_evaluator_free(made->evaluator);
-    cz_problem_free(made->problem);
-}
-
-static const CzCheckResult *find(const Case *made, const char *name, const char *scenario) {
-    for (int i = 0; i < made->evaluation.n_check; i++)
-        if (strcmp(made->evaluation.check[i].name, name) == 0 &&
-            strcmp(made->evaluation.check[i].scenario, scenario) == 0)
-            return &made->evaluation.check[i];
-    fail_msg("there is no check %s", name);
-    return NULL;
+/* A check that there is. */
+static const CzCheckResult *listed(const Case *made, const char *name, const char *scenario) {
+    const CzCheckResult *check = find(made, name, scenario);
+    if (check == NULL)
+        fail_msg("there is no check %s", name);
+    return check;
 }
 
 static const char pulses[] =
@@ -54,14 +35,15 @@ static void a_limit_gives_the_parameters_of_its_metric(void **state) {
     (void)state;
     Case made = judge(pulses, true);
     const double change = 25 / 3.6 / 2;
-    assert_in_range((long)(1e3 * find(&made, "far", "crash")->value), (long)(1e3 * change),
+    assert_in_range((long)(1e3 * listed(&made, "far", "crash")->value), (long)(1e3 * change),
                     (long)(1.1e3 * change));
-    assert_true(find(&made, "siv", "crash")->value <= find(&made, "far", "crash")->value);
-    assert_true(find(&made, "siv", "crash")->when[0] > 0);
-    assert_near(find(&made, "usual", "crash")->value, find(&made, "120 ms", "crash")->value, 0, 0);
-    assert_true(find(&made, "short", "crash")->value > find(&made, "usual", "crash")->value);
-    assert_true(find(&made, "all", "crash")->value >= find(&made, "contact", "crash")->value);
-    assert_true(find(&made, "filtered", "crash")->value > find(&made, "short", "crash")->value);
+    assert_true(listed(&made, "siv", "crash")->value <= listed(&made, "far", "crash")->value);
+    assert_true(listed(&made, "siv", "crash")->when[0] > 0);
+    assert_near(listed(&made, "usual", "crash")->value, listed(&made, "120 ms", "crash")->value, 0,
+                0);
+    assert_true(listed(&made, "short", "crash")->value > listed(&made, "usual", "crash")->value);
+    assert_true(listed(&made, "all", "crash")->value >= listed(&made, "contact", "crash")->value);
+    assert_true(listed(&made, "filtered", "crash")->value > listed(&made, "short", "crash")->value);
     end(&made);
 }
 

@@ -1,16 +1,10 @@
 /* Explanations: their statements are checked against runs and sweeps of the same problem. */
 #include "support/check.h"
 
-#include "crushzone/explain.h"
+#include "evaluate/explained_problem.h"
 #include "crushzone/sweep.h"
 
 static const char file[] = "problems/two-cars-25kmh.yaml";
-
-typedef struct Case {
-    CzProblem *problem;
-    CzEvaluator *evaluator;
-    CzExplanation *explanation;
-} Case;
 
 /* The file with settings. */
 static Case begin(const char *over) {
@@ -27,12 +21,6 @@ static Case begin(const char *over) {
         print_error("%s\n", error.message);
     assert_int_equal(status, CZ_OK);
     return made;
-}
-
-static void end(Case *made) {
-    cz_explanation_free(made->explanation);
-    cz_evaluator_free(made->evaluator);
-    cz_problem_free(made->problem);
 }
 
 /* One explanation serves all tests of an override. */

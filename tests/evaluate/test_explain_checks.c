@@ -4,13 +4,7 @@
 
 #include <stdbool.h>
 
-#include "crushzone/explain.h"
-
-typedef struct Case {
-    CzProblem *problem;
-    CzEvaluator *evaluator;
-    CzExplanation *explanation;
-} Case;
+#include "evaluate/explained_problem.h"
 
 /* Explains a text, all failing checks or one; returns the status. */
 static CzStatus explain(const char *text, const char *check, Case *made, CzError *error) {
@@ -35,12 +29,6 @@ static Case explained(const char *text, const char *check) {
         print_error("%s\n", error.message);
     assert_int_equal(status, CZ_OK);
     return made;
-}
-
-static void end(Case *made) {
-    cz_explanation_free(made->explanation);
-    cz_evaluator_free(made->evaluator);
-    cz_problem_free(made->problem);
 }
 
 static const CzExplainedCheck *find(const Case *made, const char *name) {
@@ -190,7 +178,7 @@ static double margin_with(const CzTriedChange *change, const char *name, bool *p
     return margin;
 }
 
-/* A change that is set by hand gives the margins that were told, those of energies as well. */
+/* A change that is set by hand gives the margins that were reported, those of energies as well. */
 static void changes_have_the_effect_of_the_changed_file(void **state) {
     (void)state;
     const char *const name[] = {"interface force", "coupler energy"};

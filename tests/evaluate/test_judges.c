@@ -3,6 +3,7 @@
 #include "support/check.h"
 
 #include "evaluate/evaluator.h"
+#include "evaluate/judged_problem.h"
 #include "evaluate/small_problem.h"
 #include "evaluate/stand_in.h"
 
@@ -13,35 +14,9 @@ static const char fast[] =
     "  {name: named, metric: interfaces.peak_force_kN, max: 9000, scenarios: "
     "[fast]}]}\n";
 
-typedef struct Case {
-    CzProblem *problem;
-    CzEvaluator *evaluator;
-    CzEvaluation evaluation;
-} Case;
-
 static Case judge(const char *more) {
-    Case made = {0};
-    CzError error = {0};
     stand_in_reset();
-    made.problem = small_problem(more);
-    if (cz_evaluator_build(made.problem, NULL, &made.evaluator, &error) != CZ_OK)
-        fail_msg("%s", error.message);
-    assert_int_equal(cz_evaluate(made.evaluator, 1, NULL, false, &made.evaluation, &error), CZ_OK);
-    return made;
-}
-
-static void end(Case *made) {
-    cz_evaluation_free(&made->evaluation);
-    cz_evaluator_free(made->evaluator);
-    cz_problem_free(made->problem);
-}
-
-static const CzCheckResult *find(const Case *made, const char *name, const char *scenario) {
-    for (int i = 0; i < made->evaluation.n_check; i++)
-        if (strcmp(made->evaluation.check[i].name, name) == 0 &&
-            strcmp(made->evaluation.check[i].scenario, scenario) == 0)
-            return &made->evaluation.check[i];
-    return NULL;
+    return judged(small_problem(more), false);
 }
 
 static void only_the_named_checks_and_limits_that_name_it_judge_a_scenario(void **state) {

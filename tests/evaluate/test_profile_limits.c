@@ -3,19 +3,11 @@
 
 #include <sys/stat.h>
 
-#include "evaluate/evaluator.h"
+#include "evaluate/judged_problem.h"
 #include "evaluate/small_problem.h"
-
-typedef struct Case {
-    CzProblem *problem;
-    CzEvaluator *evaluator;
-    CzEvaluation evaluation;
-} Case;
 
 /* Judges the small problem by a profile with limits of a force and a shortening. */
 static Case judge(double force, double shortening, const char *checks) {
-    Case made = {0};
-    CzError error = {0};
     (void)mkdir("profiles", 0777);
     FILE *file = fopen("profiles/mine.yaml", "w");
     assert_non_null(file);
@@ -27,17 +19,7 @@ static Case judge(double force, double shortening, const char *checks) {
             "ours, confidence: M2}\n",
             force, shortening);
     fclose(file);
-    made.problem = small_problem(checks);
-    if (cz_evaluator_build(made.problem, NULL, &made.evaluator, &error) != CZ_OK)
-        fail_msg("%s", error.message);
-    assert_int_equal(cz_evaluate(made.evaluator, 1, NULL, false, &made.evaluation, &error), CZ_OK);
-    return made;
-}
-
-static void end(Case *made) {
-    cz_evaluation_free(&made->evaluation);
-    cz_evaluator_free(made->evaluator);
-    cz_problem_free(made->problem);
+    return judged(small_problem(checks), false);
 }
 
 /* Checks that differ, each of which must have the name. */
@@ -84,15 +66,13 @@ static void an_override_acts_as_the_number_in_the_profile(void **state) {
 /* Scenarios of the category that a problem of one train does not have as its profile has them. */
 static int n_changed_scenarios(const char *more) {
     char text[1000];
-    Case made = {0};
+    CzProblem *problem = NULL;
     CzError error = {0};
     snprintf(text, sizeof text, "extends: " CZ_SOURCE_FOLDER "/tests/problem/good/single.yaml\n%s",
              more);
-    if (cz_problem_read_text(text, strlen(text), "more.yaml", ".", NULL, &made.problem, &error) !=
-            CZ_OK ||
-        cz_evaluator_build(made.problem, NULL, &made.evaluator, &error) != CZ_OK)
+    if (cz_problem_read_text(text, strlen(text), "more.yaml", ".", NULL, &problem, &error) != CZ_OK)
         fail_msg("%s", error.message);
-    assert_int_equal(cz_evaluate(made.evaluator, 1, NULL, false, &made.evaluation, &error), CZ_OK);
+    Case made = judged(problem, false);
     int n = 0;
     for (int i = 0; i < made.evaluation.n_not_applicable; i++)
         n += strstr(made.evaluation.not_applicable[i], "another one in its place") != NULL;
@@ -100,8 +80,8 @@ static int n_changed_scenarios(const char *more) {
     return n;
 }
 
-/* A verdict by a profile tells which of its scenarios the problem has changed, not repeated. */
-static void a_changed_scenario_is_told_apart(void **state) {
+/* A verdict by a profile lists which of its scenarios the problem has changed, not repeated. */
+static void a_changed_scenario_is_listed(void **state) {
     (void)state;
     assert_int_equal(n_changed_scenarios(""), 0);
     assert_int_equal(
@@ -115,7 +95,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_limit_changes_only_its_own_verdicts),
         cmocka_unit_test(an_override_acts_as_the_number_in_the_profile),
-        cmocka_unit_test(a_changed_scenario_is_told_apart),
+        cmocka_unit_test(a_changed_scenario_is_listed),
     };
     if (enter_work_folder() != 0)
         return 1;

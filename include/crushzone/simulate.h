@@ -69,9 +69,9 @@ typedef struct CzElementResult {
     double peak_force;   /* unfiltered largest force over all steps [N] */
     double tube_energy;  /* energy dissipated by the tubes and the shear-off of a coupler [J]; for
                             other elements all of it */
-    double early_energy; /* part of it before an earlier device of the end, in the sequence coupler
-                            or side buffers, anti-climber, end, was used up [J]; NaN of runs without
-                            pulses */
+    double early_energy; /* part of it before the stroke of an earlier device of the end was
+                            exhausted, in the sequence coupler or side buffers, anti-climber, end
+                            [J]; NaN of runs without pulses */
     bool sheared;        /* the coupler has sheared off */
     bool bottomed_out; /* a device used its whole stroke, and no other device of the element follows
                           it */

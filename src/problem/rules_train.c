@@ -118,7 +118,7 @@ static void warn_of_heights_apart(const CzRules *rules, const Facing *facing, Cz
         return;
     const double own = cz_part_heights(end, kind).low;
     const double other = cz_part_heights(facing->opposite, kind).low + facing->rise;
-    if (!(other - own > most[kind])) /* told of the lower one; NaN where heights do not matter */
+    if (!(other - own > most[kind])) /* at the lower one; NaN where heights do not matter */
         return;
     cz_rule_warning(rules,
                     is_coupler ? (const void *)&end->coupler : (const void *)&end->side_buffers,

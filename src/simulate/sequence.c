@@ -1,9 +1,9 @@
-/* Sequence of the devices of an end: the energy that a device dissipates before an earlier one is
- * used up.
+/* Sequence of the devices of an end: the energy that a device dissipates before the stroke of an
+ * earlier one is exhausted.
  *
  *   coupler with its tubes, side buffers  ->  anti-climber  ->  crush zone of the end
  *
- * A coupler is used up when its tubes are, or when it has sheared off; a device without a plastic
+ * A coupler is exhausted when its tubes are, or when it has sheared off; a device without a plastic
  * stroke, such as a buffer alone, when its stroke is. The devices are looked at with each sample of
  * the pulses.
  */
@@ -13,7 +13,7 @@
 #include <string.h>
 
 enum { N_RANK = 3 };
-#define USED_UP 0.999 /* share of the stroke from which a device counts as used up (ours) */
+#define EXHAUSTED 0.999 /* share of the stroke from which it counts as exhausted (ours) */
 
 /* Devices of the two sides of an interface. */
 struct CzSequence {
@@ -59,7 +59,7 @@ static bool has_stroke(const CzBatch *batch, size_t lane, int side, const CzDevi
         return false;
     if (device->element == CZ_ELEMENT_COUPLER && cz_coupler_is_sheared(batch->dynamics, lane, side))
         return false;
-    return cz_device_stroke_now(batch, device) < USED_UP * device->usable;
+    return cz_device_stroke_now(batch, device) < EXHAUSTED * device->usable;
 }
 
 static void look_at_side(const CzBatch *batch, size_t lane, int side) {

@@ -26,13 +26,13 @@ told_channels() { # every column of a run of full cars, with any car, interface,
 check "help channels lists every column of a run" told_channels
 told_profiles() { for file in "$SOURCE"/problems/profiles/*.yaml; do "$C" help profiles | grep -qw -- "$(basename "$file" .yaml)" || return 1; done; }
 check "help profiles lists every shipped profile" told_profiles
-told_parts() { # of every shipped catalogue, and with a file those that it uses
+listed_parts() { # of every shipped catalogue, and with a file those that it uses
     exits 0 "$C" help parts && cp out.txt parts.txt && for file in "$SOURCE"/problems/catalogue/*.yaml; do grep -q "^catalogue/$(basename "$file")$" parts.txt || return 1; done
     grep -qE '^  anti-climber +anti_climber +1000 +300 +300$' parts.txt && grep -qE '^  metro-cab-car +vehicle .* 38.7 +23.6$' parts.txt &&
         exits 0 "$C" help parts "$SOURCE/problems/metro-6-car.yaml" && says out.txt head-tube && ! grep -q wagon out.txt &&
         exits 2 "$C" help parts nothing.yaml && exits 2 "$C" help keys "$SOURCE/problems/wall.yaml" && says err.txt "'help keys' takes no file"
 }
-check "help parts lists the shipped catalogues, or the parts of a file, with kN, mm, kJ" told_parts
+check "help parts lists the shipped catalogues, or the parts of a file, with kN, mm, kJ" listed_parts
 profiles() {
     exits 0 "$C" profile list && says out.txt 'categories: C-I, C-II, C-III, C-IV' &&
         exits 0 "$C" profile show us-49cfr238 && says out.txt 'interfaces.colliding.underframe_rise_mm at most 101.6 [S1] 238.707(a)' && says out.txt 'collision and corner posts' &&

@@ -1,4 +1,4 @@
-/* Energy that a device dissipates before an earlier one of its end is used up. */
+/* Energy that a device dissipates before the stroke of an earlier one is exhausted. */
 #include "physics/collision.h"
 
 #define SEQUENCE "tests/physics/cases/sequence.yaml"
@@ -25,9 +25,9 @@ static void devices_that_work_one_after_the_other_have_no_early_energy(void **st
     collision_free(&collision);
 }
 
-/* With a gap of 220 mm the anti-climbers touch at a closure of 440 mm, and the couplers are used up
- * at 600 mm: each anti-climber takes 80 mm with 1 MN before. The samples of 1 ms miss up to 1 ms at
- * 10 m/s, 5 mm of each. */
+/* With a gap of 220 mm the anti-climbers touch at a closure of 440 mm, and the couplers are
+ * exhausted at 600 mm: each anti-climber takes 80 mm with 1 MN before. The samples of 1 ms miss up
+ * to 1 ms at 10 m/s, 5 mm of each. */
 static void an_anti_climber_beside_a_tube_takes_its_energy_early(void **state) {
     (void)state;
     Collision collision = collide(SEQUENCE, WITH("parts.front.anti_climber.gap_mm=220"), 0);

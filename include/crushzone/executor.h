@@ -6,7 +6,7 @@
  *
  * An executor may send tasks as plain data to workers in other processes of the same program:
  *
- *   this process   tell:                         message --> every worker: cz_worker_learn
+ *   this process   broadcast:                    message --> every worker: cz_worker_receive
  *                  submit, wait: cz_task_request request --> a worker:     cz_worker_answer
  *                                cz_task_take    answer  <--
  */
@@ -48,9 +48,9 @@ struct CzExecutor {
     CzStatus (*submit)(const CzExecutor *executor, CzTasks *tasks, CzError *error);
     /* Returns when every task of the batch was run once. Status: the executor's own failure. */
     CzStatus (*wait)(const CzExecutor *executor, CzTasks *tasks, CzError *error);
-    /* Sends a message to all workers, which they learn before they answer any later request; NULL
+    /* Sends a message to all workers, which they receive before any later request; NULL
      * for an executor without workers. Status: the executor's own failure. */
-    CzStatus (*tell)(const CzExecutor *executor, const CzBytes *message, CzError *error);
+    CzStatus (*broadcast)(const CzExecutor *executor, const CzBytes *message, CzError *error);
     void *data; /* the executor's own */
 };
 
@@ -62,7 +62,7 @@ CZ_API CzExecutor cz_executor_threads(int n_thread);
 
 /* ---- workers --------------------------------------------------------------------------------- */
 
-/* What a worker knows: the studies that it was told of. It needs no problem file, but the profiles
+/* What a worker knows: the studies that were sent to it. It needs no problem file, but the profiles
  * of limits and the measured histories that a problem names. */
 typedef struct CzWorker CzWorker;
 
@@ -70,8 +70,8 @@ typedef struct CzWorker CzWorker;
 CZ_API CzWorker *cz_worker_create(void);
 CZ_API void cz_worker_free(CzWorker *worker);
 
-/* Learns a message of `tell`. A study that cannot be made is reported by its answers. */
-CZ_API void cz_worker_learn(CzWorker *worker, const CzBytes *message);
+/* Takes a message of `broadcast`. A study that cannot be made is reported by its answers. */
+CZ_API void cz_worker_receive(CzWorker *worker, const CzBytes *message);
 
 /* Runs the task of a request; the answer, to be freed, is its results or its failure. Status:
  * CZ_STATUS_NO_MEMORY when there is no answer. */

@@ -200,8 +200,8 @@ CZ_MUST_CHECK CZ_API CzStatus cz_optimise_check(const CzEvaluator *evaluator,
                                                 const CzOptimiseOptions *options, CzError *error);
 
 /* The same; replaces default values of algorithm, evaluations and seed by those of the file. */
-CZ_MUST_CHECK CZ_API CzStatus cz_optimise_settle(const CzEvaluator *evaluator,
-                                                 CzOptimiseOptions *options, CzError *error);
+CZ_MUST_CHECK CZ_API CzStatus cz_optimise_fill_defaults(const CzEvaluator *evaluator,
+                                                        CzOptimiseOptions *options, CzError *error);
 
 CZ_API void cz_outcome_free(CzOutcome *outcome);
 

@@ -24,7 +24,7 @@ int cz_status_exit_code(CzStatus status) {
     return statuses[status].exit_code;
 }
 
-void cz_error_say(CzError *error, const char *format, va_list arguments) {
+void cz_error_format(CzError *error, const char *format, va_list arguments) {
     char sentence[2 * sizeof error->message];
     vsnprintf(sentence, sizeof sentence, format, arguments);
     char *help = strstr(sentence, CZ_HELP);
@@ -52,7 +52,7 @@ CzStatus cz_fail(CzError *error, CzStatus status, const char *format, ...) {
     error->status = status;
     va_list arguments;
     va_start(arguments, format);
-    cz_error_say(error, format, arguments);
+    cz_error_format(error, format, arguments);
     va_end(arguments);
     return status;
 }

@@ -18,7 +18,7 @@ CzStatus cz_fail(CzError *error, CzStatus status, const char *format, ...)
 CzStatus cz_no_memory(CzError *error, const char *what);
 
 /* Writes sentence and hint alone. */
-void cz_error_say(CzError *error, const char *format, va_list arguments);
+void cz_error_format(CzError *error, const char *format, va_list arguments);
 
 /* Writes the hint alone. */
 void cz_error_help(CzError *error, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -11,8 +11,9 @@ static int judge(const CzArguments *arguments, const CzChallenge *challenge) {
         return 128 + cz_interrupt_signal();
     for (int i = 0; i < challenge->n_weak; i++)
         if (challenge->weak[i].state != CZ_SAMPLE_DONE) {
-            cz_tell(arguments, "a run gave no result: do not use the design before its cause is "
-                               "known");
+            cz_print_note(arguments,
+                          "a run gave no result: do not use the design before its cause is "
+                          "known");
             return cz_status_exit_code(CZ_STATUS_RUN_FAILED);
         }
     return challenge->is_broken ? cz_status_exit_code(CZ_STATUS_VIOLATED) : 0;
@@ -26,8 +27,8 @@ static int finish(CzSession *session, const CzChallenge *challenge) {
     const int code = cz_session_deliver(session, &report);
     if (code != 0)
         return code;
-    cz_tell(arguments, "%d runs in %.3g s%s%s", challenge->n_point, challenge->wall_s,
-            folder != NULL ? ", results in " : "", folder != NULL ? folder : "");
+    cz_print_note(arguments, "%d runs in %.3g s%s%s", challenge->n_point, challenge->wall_s,
+                  folder != NULL ? ", results in " : "", folder != NULL ? folder : "");
     return judge(arguments, challenge);
 }
 

@@ -12,7 +12,7 @@ static int judge(const CzArguments *arguments, const CzCorridor *corridor) {
     if (corridor->exists)
         return 0;
     if (corridor->curve[0].state == CZ_SAMPLE_RUN_FAILED) {
-        cz_tell(arguments, "a run of the nominal curve failed or is incomplete");
+        cz_print_note(arguments, "a run of the nominal curve failed or is incomplete");
         return cz_status_exit_code(CZ_STATUS_RUN_FAILED);
     }
     return cz_status_exit_code(CZ_STATUS_VIOLATED);
@@ -26,8 +26,8 @@ static int finish(CzSession *session, const CzCorridor *corridor) {
     const int code = cz_session_deliver(session, &report);
     if (code != 0)
         return code;
-    cz_tell(arguments, "%d curves in %.3g s%s%s", corridor->n_curve, corridor->wall_s,
-            folder != NULL ? ", results in " : "", folder != NULL ? folder : "");
+    cz_print_note(arguments, "%d curves in %.3g s%s%s", corridor->n_curve, corridor->wall_s,
+                  folder != NULL ? ", results in " : "", folder != NULL ? folder : "");
     return judge(arguments, corridor);
 }
 

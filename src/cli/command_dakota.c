@@ -24,7 +24,7 @@ static CzStatus write_failure(const void *data, FILE *stream, CzError *error) {
 static int write_file(const CzArguments *arguments, CzReportWriter *write, const void *data) {
     CzError error = {0};
     const CzStatus status = cz_report_write_file(arguments->operand[1], write, data, &error);
-    return status == CZ_OK ? 0 : cz_tell_error(arguments, &error);
+    return status == CZ_OK ? 0 : cz_print_error(arguments, &error);
 }
 
 /* Reports a mistake, and writes the results of a failed evaluation. */
@@ -50,7 +50,7 @@ static int evaluate(const CzSession *session) {
     if (status != CZ_OK)
         return refuse(session, &error);
     if (cz_dakota_failure(dakota)[0] != '\0')
-        cz_tell(arguments, "the evaluation failed: %s", cz_dakota_failure(dakota));
+        cz_print_note(arguments, "the evaluation failed: %s", cz_dakota_failure(dakota));
     const int code = write_file(arguments, write_results, dakota);
     cz_dakota_free(dakota);
     return code;
@@ -60,9 +60,9 @@ int cz_command_dakota(const CzArguments *arguments) {
     const char *file = arguments->text[CZ_OPTION_PROBLEM];
     CzSession session;
     if (file == NULL || strcmp(file, "-") == 0)
-        return cz_tell_error(arguments, &(CzError){.status = CZ_STATUS_INPUT,
-                                                   .message = "the problem is missing: give "
-                                                              "--problem FILE"});
+        return cz_print_error(arguments, &(CzError){.status = CZ_STATUS_INPUT,
+                                                    .message = "the problem is missing: give "
+                                                               "--problem FILE"});
     cz_interrupt_catch();
     int code = cz_session_read(&session, arguments, file);
     if (code == 0)

@@ -7,13 +7,13 @@ int cz_command_export(const CzArguments *arguments) {
     const char *path = arguments->text[CZ_OPTION_SQLITE];
     CzError error = {0};
     if (path == NULL)
-        return cz_tell_error(arguments, &(CzError){.status = CZ_STATUS_INPUT,
-                                                   .message = "the file is missing: give --sqlite "
-                                                              "FILE.db"});
+        return cz_print_error(arguments, &(CzError){.status = CZ_STATUS_INPUT,
+                                                    .message = "the file is missing: give --sqlite "
+                                                               "FILE.db"});
     const CzStatus status =
         cz_report_export(arguments->n_operand, arguments->operand, path, &error);
     if (status != CZ_OK)
-        return cz_tell_error(arguments, &error);
-    cz_tell(arguments, "wrote %s", path);
+        return cz_print_error(arguments, &error);
+    cz_print_note(arguments, "wrote %s", path);
     return 0;
 }

@@ -13,9 +13,9 @@
 static void restore(const CzArguments *arguments) {
     for (int i = 0; i < arguments->n_operand; i++)
         if (cz_report_restore_folder(arguments->operand[i]))
-            cz_tell(arguments,
-                    "restored %s, which an interrupted process had left under another name",
-                    arguments->operand[i]);
+            cz_print_note(arguments,
+                          "restored %s, which an interrupted process had left under another name",
+                          arguments->operand[i]);
 }
 
 /* ---- report ---- */
@@ -38,7 +38,7 @@ static void find_report(const CzArguments *arguments, char path[4096]) {
 /* Whether a folder is that of a search against scatter, whose rounds and samples only the search
  * itself can write again. */
 static bool is_against_scatter(const char *folder) {
-    return cz_recall_is_there(folder, "samples.html");
+    return cz_recall_exists(folder, "samples.html");
 }
 
 static int refuse_report(const CzArguments *arguments, const char *folder) {
@@ -48,7 +48,7 @@ static int refuse_report(const CzArguments *arguments, const char *folder) {
             "its rounds" CZ_HELP "crushzone optimise FILE --resume %.200s writes the folder "
             "again; for a report of the best design only give a file: -o best.html",
             folder, folder);
-    return cz_tell_error(arguments, &error);
+    return cz_print_error(arguments, &error);
 }
 
 /* The report of the best design of a search alone has a separate file. */
@@ -118,7 +118,7 @@ static int refuse_with_vary(const CzArguments *arguments) {
         if (arguments->text[refused[i]] != NULL) {
             cz_fail(&error, CZ_STATUS_INPUT, "--%s is not for a figure with --vary",
                     cz_options[refused[i]].name);
-            return cz_tell_error(arguments, &error);
+            return cz_print_error(arguments, &error);
         }
     return 0;
 }
@@ -144,7 +144,7 @@ static int plot_points(CzSession *session, void *data) {
     if (code != 0)
         return code;
     if (cz_sweep(session->file, &problem_options, &options, &sweep, &error) != CZ_OK)
-        return cz_tell_error(arguments, &error);
+        return cz_print_error(arguments, &error);
     const Varied varied = {sweep, what != NULL ? what : cz_chart_options_default().what};
     code = cz_result_write(arguments, path != NULL ? path : "-", write_varied, &varied);
     cz_sweep_free(sweep);
@@ -159,7 +159,7 @@ static int plot_varied(const CzArguments *arguments) {
         return code;
     for (int k = 0; k < arguments->n_vary; k++)
         if (cz_sweep_axis_parse(arguments->vary[k], &axis[k], &error) != CZ_OK)
-            return cz_tell_error(arguments, &error);
+            return cz_print_error(arguments, &error);
     return cz_session_study(arguments, plot_points, axis);
 }
 
@@ -187,7 +187,7 @@ static int compare(const CzArguments *arguments, const CzResult *result) {
     for (int i = 0; i < arguments->n_operand; i++)
         run[i] = result[i].run;
     if (cz_comparison_make(&report, &comparison, &error) != CZ_OK)
-        return cz_tell_error(arguments, &error);
+        return cz_print_error(arguments, &error);
     report.comparison = comparison;
     const char *page = arguments->text[CZ_OPTION_OUTPUT];
     int code = cz_print_results(arguments, &report);
@@ -201,7 +201,7 @@ int cz_command_compare(const CzArguments *arguments) {
     CzResult *result = calloc((size_t)arguments->n_operand, sizeof *result);
     if (result == NULL) {
         const CzError error = {.status = CZ_STATUS_NO_MEMORY, .message = "no memory to compare"};
-        return cz_tell_error(arguments, &error);
+        return cz_print_error(arguments, &error);
     }
     int code = 0;
     restore(arguments);

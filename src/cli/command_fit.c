@@ -113,7 +113,7 @@ static int write_fit(const CzArguments *arguments, const CzFit *fit) {
     if (arguments->text[CZ_OPTION_JSON] != NULL) {
         const CzReport report = {.kind = CZ_REPORT_FIT, .fit = fit};
         if (cz_report_write_json(&report, stdout, &error) != CZ_OK)
-            return cz_tell_error(arguments, &error);
+            return cz_print_error(arguments, &error);
     } else {
         report_doubts(fit);
         cz_fit_write_yaml(fit, stdout);
@@ -133,14 +133,14 @@ int cz_command_fit(const CzArguments *arguments) {
         cz_fail(&error, CZ_STATUS_INPUT,
                 "'--svg -' and the law cannot both be written to standard output" CZ_HELP
                 "name a file, such as --svg fit.svg");
-        return cz_tell_error(arguments, &error);
+        return cz_print_error(arguments, &error);
     }
     const int unwritable = cz_result_check(arguments, NULL, svg);
     if (unwritable != 0)
         return unwritable;
     if (read_options(arguments, &options, &error) != CZ_OK ||
         cz_fit_read(arguments->operand[0], &options, &fit, &error) != CZ_OK)
-        return cz_tell_error(arguments, &error);
+        return cz_print_error(arguments, &error);
     const int code = write_fit(arguments, fit);
     cz_fit_free(fit);
     return code;

@@ -91,7 +91,7 @@ static void describe_due(const CzShards *shards, size_t room, char *text) {
 }
 
 /* Names what has to be run, with the commands; a document has the first one. */
-static int tell_due(const CzArguments *arguments, const CzShards *shards) {
+static int report_missing_parts(const CzArguments *arguments, const CzShards *shards) {
     CzError error = {.status = CZ_STATUS_RUN_FAILED};
     describe_due(shards, sizeof error.message, error.message);
     FILE *help = fmemopen(error.help, sizeof error.help, "w");
@@ -101,7 +101,7 @@ static int tell_due(const CzArguments *arguments, const CzShards *shards) {
         fputs("run these commands, and merge again:", help);
     if (help != NULL)
         fclose(help);
-    const int code = cz_tell_error(arguments, &error);
+    const int code = cz_print_error(arguments, &error);
     for (int i = 0; i < shards->n_due && arguments->text[CZ_OPTION_JSON] == NULL; i++) {
         fputs("    ", stderr);
         write_command(shards, &shards->due[i], stderr);
@@ -161,10 +161,10 @@ static int merge(const CzArguments *arguments, CzShards *shards) {
     char **word = NULL;
     int code;
     if (shards->n_due > 0)
-        return tell_due(arguments, shards);
+        return report_missing_parts(arguments, shards);
     const CzStatus status = read_whole_run(arguments, shards, &word, &whole, &error);
     if (status != CZ_OK)
-        code = cz_tell_error(arguments, &error);
+        code = cz_print_error(arguments, &error);
     else if (whole.command == CZ_COMMAND_SWEEP)
         code = cz_sweep_shards(&whole, shards);
     else
@@ -178,7 +178,7 @@ int cz_command_merge(const CzArguments *arguments) {
     CzShards *shards = NULL;
     CzError error = {0};
     if (cz_shards_read(arguments->n_operand, arguments->operand, &shards, &error) != CZ_OK)
-        return cz_tell_error(arguments, &error);
+        return cz_print_error(arguments, &error);
     const int code = merge(arguments, shards);
     cz_shards_free(shards);
     return code;

@@ -127,7 +127,7 @@ int cz_command_new(const CzArguments *arguments) {
                      ? choose_text(template, arguments->text[CZ_OPTION_CATEGORY], &error)
                      : NULL;
     if (text == NULL)
-        return cz_tell_error(arguments, &error);
+        return cz_print_error(arguments, &error);
     if (path != NULL && strcmp(path, "-") == 0) {
         fputs(text, stdout);
         free(text);
@@ -140,7 +140,7 @@ int cz_command_new(const CzArguments *arguments) {
     const CzStatus status = write_new(path, text, &error);
     free(text);
     if (status != CZ_OK)
-        return cz_tell_error(arguments, &error);
-    cz_tell(arguments, "wrote %s; next: crushzone run %s", path, path);
+        return cz_print_error(arguments, &error);
+    cz_print_note(arguments, "wrote %s; next: crushzone run %s", path, path);
     return 0;
 }

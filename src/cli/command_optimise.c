@@ -96,13 +96,13 @@ static int finish(Search *search) {
     search->session.options.wall_s = outcome->wall_s;
     search->session.options.journal = cz_journal_path(search->journal);
     search->report.outcome = outcome;
-    const int unkept = cz_keep_results(arguments, &search->report, search->folder);
+    const int unkept = cz_save_results(arguments, &search->report, search->folder);
     const int unprinted = cz_print_results(arguments, &search->report);
     if (unkept == 0)
-        cz_tell(arguments,
-                "results in %s, computed in %.3g s; run the best design with: crushzone "
-                "check %s/optimised.yaml",
-                search->folder, outcome->wall_s, search->folder);
+        cz_print_note(arguments,
+                      "results in %s, computed in %.3g s; run the best design with: crushzone "
+                      "check %s/optimised.yaml",
+                      search->folder, outcome->wall_s, search->folder);
     return unkept != 0 ? unkept : unprinted != 0 ? unprinted : judge(outcome);
 }
 
@@ -111,7 +111,7 @@ static int search_and_finish(Search *search) {
     CzOptimiseOptions options = options_of(search);
     int code = 0;
     search->report = cz_session_report(&search->session, CZ_REPORT_SEARCH, 0);
-    CzStatus status = cz_optimise_settle(search->session.evaluator, &options, &error);
+    CzStatus status = cz_optimise_fill_defaults(search->session.evaluator, &options, &error);
     if (status == CZ_OK)
         status = cz_journal_begin(search->journal, &search->report, &options, &error);
     if (status == CZ_OK)

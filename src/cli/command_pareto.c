@@ -65,10 +65,11 @@ static int finish(Front *front) {
     front->session.options.replaces_search = true; /* its own journal */
     front->report.evaluator = pareto->evaluator;
     front->report.pareto = pareto;
-    const int unkept = cz_keep_results(arguments, &front->report, front->folder);
+    const int unkept = cz_save_results(arguments, &front->report, front->folder);
     const int unprinted = cz_print_results(arguments, &front->report);
     if (unkept == 0)
-        cz_tell(arguments, "results in %s, computed in %.3g s", front->folder, pareto->wall_s);
+        cz_print_note(arguments, "results in %s, computed in %.3g s", front->folder,
+                      pareto->wall_s);
     return unkept != 0 ? unkept : unprinted != 0 ? unprinted : judge(pareto);
 }
 
@@ -101,7 +102,7 @@ static int find_front(Front *front) {
     CzParetoOptions options = options_of(front, &progress);
     front->report = cz_session_report(&front->session, CZ_REPORT_PARETO, 0);
     front->report.evaluator = front->session.evaluator;
-    CzStatus status = cz_optimise_settle(front->session.evaluator, &options.search, &error);
+    CzStatus status = cz_optimise_fill_defaults(front->session.evaluator, &options.search, &error);
     if (status == CZ_OK)
         status = cz_journal_begin(front->journal, &front->report, &options.search, &error);
     if (status == CZ_OK) {

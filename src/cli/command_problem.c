@@ -41,11 +41,12 @@ static void print_folding(const CzArguments *arguments, const CzModel *model, Pr
             putchar('\n');
         }
         if (properties.tube_force > properties.critical_force)
-            cz_tell(arguments,
-                    "warning: interface %s: the collapse tubes carry up to %.1f kN, more than "
-                    "F_crit, %.1f kN, at which the train folds there; weaker tubes or stiffer "
-                    "coupler hinges avoid it",
-                    name, 1e-3 * properties.tube_force, 1e-3 * properties.critical_force);
+            cz_print_note(
+                arguments,
+                "warning: interface %s: the collapse tubes carry up to %.1f kN, more than "
+                "F_crit, %.1f kN, at which the train folds there; weaker tubes or stiffer "
+                "coupler hinges avoid it",
+                name, 1e-3 * properties.tube_force, 1e-3 * properties.critical_force);
     }
 }
 

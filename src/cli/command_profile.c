@@ -12,7 +12,7 @@ static int refuse(const CzArguments *arguments, const char *what) {
     cz_fail(&error, CZ_STATUS_INPUT,
             "%s" CZ_HELP "crushzone profile list, profile show NAME, or profile scenarios NAME",
             what);
-    return cz_tell_error(arguments, &error);
+    return cz_print_error(arguments, &error);
 }
 
 int cz_command_profile(const CzArguments *arguments) {
@@ -35,6 +35,6 @@ int cz_command_profile(const CzArguments *arguments) {
     }
     if (cz_profile_write(name, is_show ? CZ_PROFILE_LIMITS : CZ_PROFILE_SCENARIOS, category,
                          &options, stdout, &error) != CZ_OK)
-        return cz_tell_error(arguments, &error);
+        return cz_print_error(arguments, &error);
     return 0;
 }

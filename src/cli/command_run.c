@@ -35,8 +35,9 @@ static void print_runs(const CzArguments *arguments, const CzEvaluation *evaluat
         if (evaluation->run == NULL || evaluation->run[i] == NULL)
             continue; /* a scenario that was left out */
         const CzRunSummary *run = cz_run_summary(evaluation->run[i]);
-        cz_tell(arguments, "%s: %ld steps of %.3g ms in %.3g s, momentum error %.2g", run->scenario,
-                run->n_step, 1e3 * run->time_step, run->wall_s, run->momentum_error);
+        cz_print_note(arguments, "%s: %ld steps of %.3g ms in %.3g s, momentum error %.2g",
+                      run->scenario, run->n_step, 1e3 * run->time_step, run->wall_s,
+                      run->momentum_error);
     }
 }
 
@@ -47,11 +48,11 @@ static void print_incomplete(const CzArguments *arguments, const CzEvaluation *e
             continue;
         const CzRunSummary *run = cz_run_summary(evaluation->run[i]);
         if (run->status == CZ_OK && run->ended == CZ_ENDED_INCOMPLETE)
-            cz_tell(arguments,
-                    "scenario '%s' has not met its end criterion after %.3g s, the "
-                    "simulation.longest_s of the problem: %s; allow more, such as --set "
-                    "simulation.longest_s=%.3g, or choose the end by simulation.duration_s",
-                    run->scenario, run->simulated, run->awaited, 2.0 * run->simulated);
+            cz_print_note(arguments,
+                          "scenario '%s' has not met its end criterion after %.3g s, the "
+                          "simulation.longest_s of the problem: %s; allow more, such as --set "
+                          "simulation.longest_s=%.3g, or choose the end by simulation.duration_s",
+                          run->scenario, run->simulated, run->awaited, 2.0 * run->simulated);
     }
 }
 
@@ -60,7 +61,8 @@ static void print_incomplete(const CzArguments *arguments, const CzEvaluation *e
 static int judge(const CzArguments *arguments, const CzEvaluation *evaluation) {
     if (evaluation->status != CZ_OK) {
         print_incomplete(arguments, evaluation);
-        cz_tell(arguments, "a run failed or is incomplete: do not use its results for a design");
+        cz_print_note(arguments,
+                      "a run failed or is incomplete: do not use its results for a design");
         return cz_status_exit_code(CZ_STATUS_RUN_FAILED);
     }
     const bool judges =
@@ -68,7 +70,7 @@ static int judge(const CzArguments *arguments, const CzEvaluation *evaluation) {
     if (!judges || cz_verdict_passes(evaluation->verdict))
         return 0;
     if (evaluation->verdict == CZ_VERDICT_NOT_CHECKED)
-        cz_tell(arguments, "some checks could not be made, so the verdict is not a pass");
+        cz_print_note(arguments, "some checks could not be made, so the verdict is not a pass");
     return cz_status_exit_code(CZ_STATUS_VIOLATED);
 }
 
@@ -81,11 +83,11 @@ static int finish(CzSession *session, const CzEvaluation *evaluation, double wal
         cz_junit_add(junit, &report);
     int code = cz_print_results(arguments, &report);
     if (code == 0)
-        code = cz_keep_results(arguments, &report, folder);
+        code = cz_save_results(arguments, &report, folder);
     if (code != 0)
         return code;
     if (folder != NULL)
-        cz_tell(arguments, "results in %s, computed in %.2g s", folder, wall_s);
+        cz_print_note(arguments, "results in %s, computed in %.2g s", folder, wall_s);
     return judge(arguments, evaluation);
 }
 
@@ -136,7 +138,7 @@ static int check_folders(const CzArguments *arguments) {
                     "%.150s and %.150s would be written to the same folder, %.100s" CZ_HELP
                     "run them one at a time, each with its own -o",
                     arguments->operand[k], arguments->operand[i], folder);
-            return cz_tell_error(arguments, &error);
+            return cz_print_error(arguments, &error);
         }
     return 0;
 }
@@ -152,14 +154,14 @@ static int check_outputs(const CzArguments *arguments) {
     if (arguments->text[CZ_OPTION_ISO_MME] != NULL &&
         folder_of(arguments, arguments->operand[0], room) == NULL) {
         cz_fail(&error, CZ_STATUS_INPUT, "--iso-mme needs a result folder: give -o DIR");
-        return cz_tell_error(arguments, &error);
+        return cz_print_error(arguments, &error);
     }
     if (junit != NULL && strcmp(junit, "-") == 0) {
         cz_fail(&error, CZ_STATUS_INPUT, "--junit writes a file; standard output has the tables");
-        return cz_tell_error(arguments, &error);
+        return cz_print_error(arguments, &error);
     }
     if (junit != NULL && cz_report_check_file(NULL, junit, false, &error) != CZ_OK)
-        return cz_tell_error(arguments, &error);
+        return cz_print_error(arguments, &error);
     return 0;
 }
 
@@ -167,8 +169,8 @@ static int write_junit(const CzArguments *arguments, const CzJunit *junit) {
     const char *path = arguments->text[CZ_OPTION_JUNIT];
     CzError error = {0};
     if (cz_report_write_file(path, cz_junit_write, junit, &error) != CZ_OK)
-        return cz_tell_error(arguments, &error);
-    cz_tell(arguments, "verdicts in %s", path);
+        return cz_print_error(arguments, &error);
+    cz_print_note(arguments, "verdicts in %s", path);
     return 0;
 }
 
@@ -180,7 +182,7 @@ int cz_command_run(const CzArguments *arguments) {
     if (arguments->text[CZ_OPTION_JUNIT] != NULL && (junit = cz_junit_begin()) == NULL) {
         CzError error;
         cz_fail(&error, CZ_STATUS_NO_MEMORY, "no memory for the JUnit document");
-        return cz_tell_error(arguments, &error);
+        return cz_print_error(arguments, &error);
     }
     for (int i = 0; i < arguments->n_operand; i++) {
         if (i > 0)

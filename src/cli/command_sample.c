@@ -12,7 +12,8 @@ static int judge(const CzArguments *arguments, const CzSampling *sampling) {
     if (sampling->is_interrupted)
         return 128 + cz_interrupt_signal();
     if (sampling->n_failed > 0)
-        cz_tell(arguments, "%d samples gave no result, and count as failing", sampling->n_failed);
+        cz_print_note(arguments, "%d samples gave no result, and count as failing",
+                      sampling->n_failed);
     if (sampling->n_failed > 0 && sampling->n_shard == 1)
         return cz_status_exit_code(CZ_STATUS_RUN_FAILED);
     /* a shard is complete, and the whole is judged */
@@ -29,8 +30,9 @@ static int finish(CzSession *session, const CzSampling *sampling) {
     const int code = cz_session_deliver_shard(session, &report);
     if (code != 0)
         return code;
-    cz_tell(arguments, "%d of %d samples in %.3g s%s%s", sampling->n_run, sampling->n_sample,
-            sampling->wall_s, folder != NULL ? ", results in " : "", folder != NULL ? folder : "");
+    cz_print_note(arguments, "%d of %d samples in %.3g s%s%s", sampling->n_run, sampling->n_sample,
+                  sampling->wall_s, folder != NULL ? ", results in " : "",
+                  folder != NULL ? folder : "");
     return judge(arguments, sampling);
 }
 

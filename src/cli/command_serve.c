@@ -17,7 +17,7 @@ static int refuse(const CzSession *session, int code) {
     const CzReport report = {.kind = CZ_REPORT_ANSWER, .reply = &reply};
     CzError error = {0};
     if (reply.error.status != CZ_OK && cz_report_write_json(&report, stdout, &error) != CZ_OK)
-        return cz_tell_error(session->arguments, &error);
+        return cz_print_error(session->arguments, &error);
     return code;
 }
 
@@ -44,14 +44,15 @@ static int answer_lines(const CzArguments *arguments, CzServer *server) {
             status = CZ_STATUS_INTERRUPTED;
             break;
         case CZ_LINES_FAILED:
-            code = cz_tell_error(arguments, &(CzError){.status = CZ_STATUS_INPUT,
-                                                       .message = "standard input cannot be read"});
+            code =
+                cz_print_error(arguments, &(CzError){.status = CZ_STATUS_INPUT,
+                                                     .message = "standard input cannot be read"});
             break;
         }
         if (status == CZ_STATUS_INTERRUPTED)
             code = 128 + cz_interrupt_signal();
         else if (status != CZ_OK)
-            code = cz_tell_error(arguments, &error);
+            code = cz_print_error(arguments, &error);
     }
     cz_lines_free(&lines);
     return code;
@@ -62,9 +63,9 @@ int cz_command_serve(const CzArguments *arguments) {
     CzServer *server = NULL;
     CzError error = {0};
     if (strcmp(arguments->operand[0], "-") == 0)
-        return cz_tell_error(arguments, &(CzError){.status = CZ_STATUS_INPUT,
-                                                   .message = "standard input has the requests; "
-                                                              "the problem must be a file"});
+        return cz_print_error(arguments, &(CzError){.status = CZ_STATUS_INPUT,
+                                                    .message = "standard input has the requests; "
+                                                               "the problem must be a file"});
     cz_interrupt_catch();
     int code = cz_session_read(&session, arguments, arguments->operand[0]);
     if (code != 0)

@@ -9,7 +9,7 @@
 static int end_early(const CzSession *session, CzStatus status, const CzError *error) {
     if (status != CZ_STATUS_INTERRUPTED)
         return cz_session_fail(session, error);
-    (void)cz_tell_error(session->arguments, error);
+    (void)cz_print_error(session->arguments, error);
     return 128 + cz_interrupt_signal();
 }
 
@@ -32,7 +32,8 @@ static int explain(CzSession *session) {
     report.explanation = explanation;
     const int code = cz_print_results(arguments, &report);
     if (code == 0)
-        cz_tell(arguments, "%ld collisions in %.3g s", explanation->n_run, explanation->wall_s);
+        cz_print_note(arguments, "%ld collisions in %.3g s", explanation->n_run,
+                      explanation->wall_s);
     cz_explanation_free(explanation);
     return code;
 }
@@ -42,8 +43,8 @@ static int explain(CzSession *session) {
 static int judge(const CzArguments *arguments, const CzVerification *verification) {
     for (int method = 0; method < CZ_N_VERIFY_METHOD; method++)
         if (verification->is_done[method] && arguments->text[CZ_OPTION_VERBOSE] != NULL)
-            cz_tell(arguments, "%s: %.3g s", cz_verify_method_text((CzVerifyMethod)method),
-                    verification->wall_s[method]);
+            cz_print_note(arguments, "%s: %.3g s", cz_verify_method_text((CzVerifyMethod)method),
+                          verification->wall_s[method]);
     if (verification->status != CZ_OK)
         return cz_status_exit_code(CZ_STATUS_RUN_FAILED);
     return verification->verdict == CZ_VERDICT_PASS ? 0 : cz_status_exit_code(CZ_STATUS_VIOLATED);
@@ -89,8 +90,8 @@ static int bench(CzSession *session) {
     session->options.n_job = 1; /* for any number of processors */
     int code = cz_print_results(arguments, &report);
     if (code == 0) {
-        cz_tell(arguments, "read in %.2g s, timed in %.2g s, on one thread", session->setup_s,
-                benchmark->wall_s);
+        cz_print_note(arguments, "read in %.2g s, timed in %.2g s, on one thread", session->setup_s,
+                      benchmark->wall_s);
         code = cz_status_exit_code(benchmark->status);
     }
     cz_benchmark_free(benchmark);

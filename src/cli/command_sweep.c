@@ -13,7 +13,7 @@ static int read_axes(const CzArguments *arguments, CzSweepAxis axis[CZ_MOST_AXES
     CzError error = {0};
     for (int k = 0; k < arguments->n_vary; k++)
         if (cz_sweep_axis_parse(arguments->vary[k], &axis[k], &error) != CZ_OK)
-            return cz_tell_error(arguments, &error);
+            return cz_print_error(arguments, &error);
     return 0;
 }
 
@@ -26,7 +26,8 @@ static int judge(const CzArguments *arguments, const CzSweep *sweep) {
     for (int i = sweep->begin; i < sweep->end; i++) {
         const CzSweepPoint *point = &sweep->point[i];
         if (point->state == CZ_SWEEP_RUN_FAILED) {
-            cz_tell(arguments, "a run failed or is incomplete: do not use its point for a design");
+            cz_print_note(arguments,
+                          "a run failed or is incomplete: do not use its point for a design");
             return cz_status_exit_code(CZ_STATUS_RUN_FAILED);
         }
         passes &= point->state == CZ_SWEEP_DONE && cz_verdict_passes(point->verdict);
@@ -55,8 +56,8 @@ static int finish(CzSession *session, const CzSweep *sweep) {
     char of_all[32] = "";
     if (n_run < sweep->n_point)
         snprintf(of_all, sizeof of_all, " of %d", sweep->n_point);
-    cz_tell(arguments, "%d%s points in %.3g s%s%s", n_run, of_all, sweep->wall_s,
-            folder != NULL ? ", results in " : "", folder != NULL ? folder : "");
+    cz_print_note(arguments, "%d%s points in %.3g s%s%s", n_run, of_all, sweep->wall_s,
+                  folder != NULL ? ", results in " : "", folder != NULL ? folder : "");
     return judge(arguments, sweep);
 }
 
@@ -105,7 +106,7 @@ static int sweep_file(CzSession *session, void *data) {
     if (cz_sweep(session->file, &problem_options, &options, &sweep, &error) == CZ_OK)
         code = finish(session, sweep);
     else
-        code = cz_tell_error(arguments, &error);
+        code = cz_print_error(arguments, &error);
     cz_sweep_free(sweep);
     return code;
 }

@@ -69,7 +69,7 @@ static int unknown_topic(const CzArguments *arguments, const char *topic,
             topic);
     if (nearest->best[0] != '\0')
         cz_error_help(&error, "did you mean 'crushzone help %s'?", nearest->best);
-    return cz_tell_error(arguments, &error);
+    return cz_print_error(arguments, &error);
 }
 
 /* Only `help parts` takes a file. */
@@ -79,7 +79,7 @@ static int refuse_file(const CzArguments *arguments) {
             "'help %.100s' takes no file" CZ_HELP
             "crushzone help parts FILE lists the parts of a file",
             arguments->operand[0]);
-    return cz_tell_error(arguments, &error);
+    return cz_print_error(arguments, &error);
 }
 
 int cz_command_help(const CzArguments *arguments) {

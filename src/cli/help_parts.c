@@ -71,7 +71,7 @@ static int write_file(const CzArguments *arguments, const char *path, const char
     CzError error = {0};
     options.share_folder = cz_share_folder;
     if (cz_inventory_read(path, &options, &inventory, &error) != CZ_OK)
-        return cz_tell_error(arguments, &error);
+        return cz_print_error(arguments, &error);
     write_inventory(inventory, name);
     cz_inventory_free(inventory);
     return 0;
@@ -90,7 +90,7 @@ static int write_catalogues(const CzArguments *arguments) {
     if (folder == NULL) {
         CzError error;
         cz_fail(&error, CZ_STATUS_INPUT, "there is no folder %.300s", path);
-        return cz_tell_error(arguments, &error);
+        return cz_print_error(arguments, &error);
     }
     for (const struct dirent *file = readdir(folder); file != NULL && n < MOST_CATALOGUES;
          file = readdir(folder)) {

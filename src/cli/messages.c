@@ -13,7 +13,7 @@
 
 enum { SHOWN_BEFORE = 60, SHOWN_AFTER = 40 }; /* characters of a long line around its caret */
 
-bool cz_wants_colour(const CzArguments *arguments, int descriptor) {
+bool cz_uses_colour(const CzArguments *arguments, int descriptor) {
     if (arguments->colour != CZ_COLOUR_AUTO)
         return arguments->colour == CZ_COLOUR_ALWAYS;
     if (arguments->executor != NULL)
@@ -47,7 +47,7 @@ static void print_place(const char *line, int column) {
 
 void cz_print_mistake(const CzArguments *arguments, const char *kind, const CzProblem *problem,
                       const CzError *mistake) {
-    const bool colour = cz_wants_colour(arguments, STDERR_FILENO);
+    const bool colour = cz_uses_colour(arguments, STDERR_FILENO);
     const bool is_error = strcmp(kind, "error") == 0;
     if (mistake->file[0] == '\0')
         fputs("crushzone: ", stderr);
@@ -72,7 +72,7 @@ static int exit_code_of(const CzError *error) {
     return cz_status_exit_code(error->status != CZ_OK ? error->status : CZ_STATUS_INTERNAL);
 }
 
-int cz_tell_error(const CzArguments *arguments, const CzError *error) {
+int cz_print_error(const CzArguments *arguments, const CzError *error) {
     const CzReport report = {.kind = CZ_REPORT_MISTAKES, .mistake = &error, .n_mistake = 1};
     CzError failure = {0};
     if (!speaks_json(arguments) || error->status == CZ_STATUS_OUTPUT)
@@ -83,10 +83,11 @@ int cz_tell_error(const CzArguments *arguments, const CzError *error) {
     return exit_code_of(error);
 }
 
-int cz_tell_mistakes(const CzArguments *arguments, const CzProblem *problem, const CzError *error) {
+int cz_print_mistakes(const CzArguments *arguments, const CzProblem *problem,
+                      const CzError *error) {
     const int n = problem != NULL ? cz_problem_n_mistake(problem) : 0;
     if (n == 0)
-        return cz_tell_error(arguments, error);
+        return cz_print_error(arguments, error);
     const CzError **mistake = speaks_json(arguments) ? calloc((size_t)n, sizeof *mistake) : NULL;
     for (int i = 0; i < n; i++) {
         if (mistake != NULL)
@@ -108,12 +109,12 @@ static bool is_silent(const CzArguments *arguments) {
     return speaks_json(arguments) || arguments->text[CZ_OPTION_QUIET] != NULL;
 }
 
-void cz_tell_warnings(const CzArguments *arguments, const CzProblem *problem) {
+void cz_print_warnings(const CzArguments *arguments, const CzProblem *problem) {
     for (int i = 0; !is_silent(arguments) && i < cz_problem_n_warning(problem); i++)
         cz_print_mistake(arguments, "warning", problem, cz_problem_warning(problem, i));
 }
 
-void cz_tell(const CzArguments *arguments, const char *format, ...) {
+void cz_print_note(const CzArguments *arguments, const char *format, ...) {
     if (is_silent(arguments))
         return;
     fflush(stdout); /* keeps the order of both streams */

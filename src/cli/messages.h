@@ -6,20 +6,20 @@
 #include "crushzone/problem.h"
 
 /* Whether a stream gets colours: on a terminal, unless NO_COLOR or a dumb TERM forbids it. */
-bool cz_wants_colour(const CzArguments *arguments, int descriptor);
+bool cz_uses_colour(const CzArguments *arguments, int descriptor);
 
 /* Reports one error, as JSON on standard output with --json, else on standard error. Returns its
  * exit code. */
-int cz_tell_error(const CzArguments *arguments, const CzError *error);
+int cz_print_error(const CzArguments *arguments, const CzError *error);
 
 /* Reports all mistakes of a problem; `error` when there are none. `problem` may be NULL. */
-int cz_tell_mistakes(const CzArguments *arguments, const CzProblem *problem, const CzError *error);
+int cz_print_mistakes(const CzArguments *arguments, const CzProblem *problem, const CzError *error);
 
 /* Reports the warnings of a problem, unless --quiet or --json. */
-void cz_tell_warnings(const CzArguments *arguments, const CzProblem *problem);
+void cz_print_warnings(const CzArguments *arguments, const CzProblem *problem);
 
 /* One line on standard error, unless --quiet or --json. */
-void cz_tell(const CzArguments *arguments, const char *format, ...)
+void cz_print_note(const CzArguments *arguments, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
 /* Prints a mistake or a warning with its source line, a caret and its help. */

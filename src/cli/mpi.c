@@ -5,7 +5,7 @@
  *   rank 0 --request--> rank r --answer--> rank 0             a task
  *
  * Messages pass from rank to rank, so that rank 0 sends them twice and not to thousands. A request
- * says how many messages were sent before it, and its rank learns these first.
+ * says how many messages were sent before it, and its rank receives these first.
  */
 #include <limits.h>
 #include <mpi.h>
@@ -95,7 +95,7 @@ typedef struct Ranks {
     int n_open;              /* tasks that other ranks have */
 } Ranks;
 
-static CzStatus tell(const CzExecutor *executor, const CzBytes *message, CzError *error) {
+static CzStatus broadcast(const CzExecutor *executor, const CzBytes *message, CzError *error) {
     Ranks *ranks = executor->data;
     Packet packet = pack((Head){0}, message);
     (void)error;
@@ -191,13 +191,13 @@ static int run_command(int argc, char **argv, int n_rank) {
     const CzExecutor executor = {.n_place = n_rank,
                                  .submit = submit,
                                  .wait = wait_for_all,
-                                 .tell = n_rank > 1 ? tell : NULL,
+                                 .broadcast = n_rank > 1 ? broadcast : NULL,
                                  .data = &ranks};
     if (ranks.sent == NULL)
         MPI_Abort(MPI_COMM_WORLD, cz_status_exit_code(CZ_STATUS_NO_MEMORY));
     const int code = cz_program(argc, argv, &executor);
     const CzBytes end = {0};
-    (void)tell(&executor, &end, NULL);
+    (void)broadcast(&executor, &end, NULL);
     free(ranks.sent);
     return code;
 }
@@ -206,15 +206,15 @@ static int run_command(int argc, char **argv, int n_rank) {
 
 typedef struct Follower {
     int rank, n_rank;
-    int64_t n_message; /* that were learnt */
+    int64_t n_message; /* that were received */
     bool is_ending;
     CzWorker *worker;
     MPI_Request sending; /* of the last answer */
     Packet answer;
 } Follower;
 
-/* Learns the next message, which comes from the rank before this one; an empty one is the end. */
-static void learn(Follower *own) {
+/* Takes the next message, which comes from the rank before this one; an empty one is the end. */
+static void take_message(Follower *own) {
     MPI_Status arrived;
     MPI_Probe((own->rank - 1) / 2, TAG_MESSAGE, MPI_COMM_WORLD, &arrived);
     Packet packet = receive(&arrived);
@@ -223,7 +223,7 @@ static void learn(Follower *own) {
     own->n_message++;
     own->is_ending = message.n == 0;
     if (!own->is_ending)
-        cz_worker_learn(own->worker, &message);
+        cz_worker_receive(own->worker, &message);
     free(packet.byte);
 }
 
@@ -243,7 +243,7 @@ static void answer(Follower *own, const MPI_Status *arrived) {
     Head head;
     memcpy(&head, packet.byte, sizeof head);
     while (own->n_message < head.n_message)
-        learn(own);
+        take_message(own);
     const CzStatus status = cz_worker_answer(own->worker, &request, &made);
     end_sending(own);
     if (status == CZ_OK)
@@ -269,7 +269,7 @@ static void follow(int rank, int n_rank) {
         if (!is_there)
             wait_shortly();
         else if (arrived.MPI_TAG == TAG_MESSAGE)
-            learn(&own);
+            take_message(&own);
         else
             answer(&own, &arrived);
     }

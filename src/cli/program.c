@@ -19,7 +19,7 @@ int cz_command_schema(const CzArguments *arguments) {
         cz_server_write_request_schema(stdout);
     else if (cz_report_write_document_schema(arguments->operand[0], stdout, &error) != CZ_OK) {
         snprintf(error.help, sizeof error.help, "'crushzone help results' lists the documents");
-        return cz_tell_error(arguments, &error);
+        return cz_print_error(arguments, &error);
     }
     return 0;
 }
@@ -88,7 +88,7 @@ int cz_program(int argc, char **argv, const CzExecutor *executor) {
     } else {
         if (has_json_option(argc, argv))
             arguments.text[CZ_OPTION_JSON] = "";
-        code = cz_tell_error(&arguments, &error);
+        code = cz_print_error(&arguments, &error);
     }
     code = cz_end_output(&arguments, code);
     cz_arguments_free(&arguments);

@@ -30,7 +30,7 @@ static char *after(char *line, const char *beginning) {
     return strncmp(line, beginning, n) == 0 ? line + n : NULL;
 }
 
-bool cz_recall_is_there(const char *folder, const char *name) {
+bool cz_recall_exists(const char *folder, const char *name) {
     char path[4096];
     struct stat found;
     const int n = snprintf(path, sizeof path, "%s/%s", folder, name);
@@ -38,7 +38,7 @@ bool cz_recall_is_there(const char *folder, const char *name) {
 }
 
 bool cz_recall_is_search(const char *folder) {
-    return cz_recall_is_there(folder, "outcome.json");
+    return cz_recall_exists(folder, "outcome.json");
 }
 
 void cz_recall_problem(const char *folder, char path[4096]) {
@@ -50,8 +50,7 @@ void cz_recall_problem(const char *folder, char path[4096]) {
         if (file == NULL)
             continue;
         file[strcspn(file, "\"\r\n")] = '\0';
-        is_there =
-            file[0] == '/' ? cz_recall_is_there("", file + 1) : cz_recall_is_there(folder, file);
+        is_there = file[0] == '/' ? cz_recall_exists("", file + 1) : cz_recall_exists(folder, file);
     }
     close_file(stream);
     snprintf(path, 4096, "%.4000s/%s", folder, is_there ? "optimised.yaml" : "resolved.yaml");
@@ -174,7 +173,7 @@ int cz_recall_outcome(const CzSession *session, const char *folder, CzOutcome **
                 "%.200s/%s cannot be read as the history of a search" CZ_HELP
                 "for a report of the best design only give a file: -o best.html",
                 folder, log.is_of_search ? "history.csv" : "run.log");
-        code = cz_tell_error(session->arguments, &error);
+        code = cz_print_error(session->arguments, &error);
     } else {
         const CzRecall recall = {.status = log.status,
                                  .why_stopped = log.why_stopped,

@@ -17,7 +17,7 @@ typedef struct CzRunLog {
 CzRunLog cz_recall_log(const char *folder);
 
 /* Whether a file is in a folder, or a folder is the result of a search. */
-bool cz_recall_is_there(const char *folder, const char *name);
+bool cz_recall_exists(const char *folder, const char *name);
 bool cz_recall_is_search(const char *folder);
 
 /* File from which to read the best design: optimised.yaml as long as the file that it extends is

@@ -10,13 +10,13 @@
 
 /* What a folder without a resolved problem is; empty when it is not one of ours. */
 static const char *what_folder(const char *folder) {
-    if (cz_recall_is_there(folder, "sweep.json"))
+    if (cz_recall_exists(folder, "sweep.json"))
         return "it is the folder of a sweep, whose report was written by the sweep; 'crushzone "
                "plot "
                "FILE --vary PATH=A,B,C' draws the curves of several values";
-    if (cz_recall_is_there(folder, "pareto.json"))
+    if (cz_recall_exists(folder, "pareto.json"))
         return "it is the folder of a front, whose report was written with it";
-    return cz_recall_is_there(folder, "history.jsonl")
+    return cz_recall_exists(folder, "history.jsonl")
                ? "it is the folder of a search that has not ended; go on with --resume"
                : "";
 }
@@ -29,20 +29,21 @@ static int find_file(CzResult *result, const char *operand) {
         snprintf(result->file, sizeof result->file, "%s", operand);
         return 0;
     }
-    if (!cz_recall_is_there(operand, "resolved.yaml")) {
+    if (!cz_recall_exists(operand, "resolved.yaml")) {
         cz_fail(&error, CZ_STATUS_INPUT,
                 "%.200s is not a result folder: it has no resolved.yaml" CZ_HELP "%s", operand,
                 what_folder(operand));
-        return cz_tell_error(&result->arguments, &error);
+        return cz_print_error(&result->arguments, &error);
     }
     snprintf(result->file, sizeof result->file, "%s/resolved.yaml", operand);
     result->log = cz_recall_log(operand);
     if (!result->log.is_ours) /* which may give other results than those in the folder */
-        cz_tell(&result->arguments,
-                "warning: the results in %s are from another version of crushzone; this version "
-                "computed them again",
-                operand);
-    if (cz_recall_is_there(operand, "channels.csv") && result->log.scenario[0] != '\0' &&
+        cz_print_note(
+            &result->arguments,
+            "warning: the results in %s are from another version of crushzone; this version "
+            "computed them again",
+            operand);
+    if (cz_recall_exists(operand, "channels.csv") && result->log.scenario[0] != '\0' &&
         result->arguments.text[CZ_OPTION_SCENARIO] == NULL)
         result->arguments.text[CZ_OPTION_SCENARIO] = result->log.scenario;
     return 0;
@@ -100,7 +101,7 @@ int cz_result_check(const CzArguments *arguments, const CzProblem *problem, cons
             &error, CZ_STATUS_OUTPUT,
             "%.200s is read and would be replaced by what is written; choose another file", path);
     }
-    return status == CZ_OK ? 0 : cz_tell_error(arguments, &error);
+    return status == CZ_OK ? 0 : cz_print_error(arguments, &error);
 }
 
 int cz_result_write(const CzArguments *arguments, const char *path, CzReportWriter *write,
@@ -108,10 +109,10 @@ int cz_result_write(const CzArguments *arguments, const char *path, CzReportWrit
     CzError error = {0};
     if (strcmp(path, "-") == 0) {
         const CzStatus status = write(data, stdout, &error);
-        return status == CZ_OK ? 0 : cz_tell_error(arguments, &error);
+        return status == CZ_OK ? 0 : cz_print_error(arguments, &error);
     }
     if (cz_report_write_file(path, write, data, &error) != CZ_OK)
-        return cz_tell_error(arguments, &error);
-    cz_tell(arguments, "wrote %s", path);
+        return cz_print_error(arguments, &error);
+    cz_print_note(arguments, "wrote %s", path);
     return 0;
 }

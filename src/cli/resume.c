@@ -50,13 +50,14 @@ int cz_resume_open(CzArguments *arguments, const char *folder, CzJournalFile **j
     CzError error = {0};
     if (cz_journal_open(folder, arguments->text[CZ_OPTION_RESUME] != NULL, journal, &error) !=
         CZ_OK)
-        return cz_tell_error(arguments, &error);
+        return cz_print_error(arguments, &error);
     const CzJournalHead *head = cz_journal_head(*journal);
     if (head == NULL)
         return 0;
     take_options(arguments, head);
-    cz_tell(arguments, "resuming after %ld evaluations%s", head->n_answer,
-            head->was_torn ? "; the last line of the journal was incomplete and is left out" : "");
+    cz_print_note(arguments, "resuming after %ld evaluations%s", head->n_answer,
+                  head->was_torn ? "; the last line of the journal was incomplete and is left out"
+                                 : "");
     return 0;
 }
 

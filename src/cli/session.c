@@ -70,7 +70,7 @@ int cz_session_read(CzSession *session, const CzArguments *arguments, const char
     CzError error = {0};
     if (read_problem(session, &error) != CZ_OK)
         return cz_session_fail(session, &error);
-    cz_tell_warnings(arguments, session->problem);
+    cz_print_warnings(arguments, session->problem);
     session->setup_s = cz_clock() - started;
     return 0;
 }
@@ -144,7 +144,7 @@ static int end_results(const CzArguments *arguments, CzStatus status, const CzEr
 }
 
 int cz_print_results(const CzArguments *arguments, const CzReport *report) {
-    const bool colour = cz_wants_colour(arguments, STDOUT_FILENO);
+    const bool colour = cz_uses_colour(arguments, STDOUT_FILENO);
     CzError error = {0};
     const CzStatus status = arguments->text[CZ_OPTION_JSON] != NULL
                                 ? cz_report_write_json(report, stdout, &error)
@@ -152,7 +152,7 @@ int cz_print_results(const CzArguments *arguments, const CzReport *report) {
     return end_results(arguments, status, &error);
 }
 
-int cz_keep_results(const CzArguments *arguments, const CzReport *report, const char *folder) {
+int cz_save_results(const CzArguments *arguments, const CzReport *report, const char *folder) {
     CzError error = {0};
     return folder == NULL
                ? 0
@@ -175,7 +175,7 @@ int cz_session_check_folder(const CzSession *session, const char *folder, bool r
         cz_fail(&error, CZ_STATUS_OUTPUT,
                 "another process is searching in the folder %.300s; choose another one with -o",
                 folder);
-    return cz_tell_error(session->arguments, &error);
+    return cz_print_error(session->arguments, &error);
 }
 
 /* A target and the problem that it is made from. */
@@ -212,7 +212,7 @@ int cz_session_write_depfile(const CzSession *session, const char *folder, const
         snprintf(made.target, sizeof made.target, "%.*s/%s", (int)n, folder, document);
         status = cz_report_write_file(path, write_rule, &made, &error);
     }
-    return status == CZ_OK ? 0 : cz_tell_error(session->arguments, &error);
+    return status == CZ_OK ? 0 : cz_print_error(session->arguments, &error);
 }
 
 /* Mistakes that were found while reading are all reported; later ones alone, with their source
@@ -220,14 +220,14 @@ int cz_session_write_depfile(const CzSession *session, const char *folder, const
 int cz_session_fail(const CzSession *session, const CzError *error) {
     if (session->problem == NULL || cz_problem_n_mistake(session->problem) > 0 ||
         session->arguments->text[CZ_OPTION_JSON] != NULL)
-        return cz_tell_mistakes(session->arguments, session->problem, error);
+        return cz_print_mistakes(session->arguments, session->problem, error);
     cz_print_mistake(session->arguments, "error", session->problem, error);
     return cz_status_exit_code(error->status);
 }
 
 int cz_session_deliver(const CzSession *session, const CzReport *report) {
     const CzArguments *arguments = session->arguments;
-    const int code = cz_keep_results(arguments, report, arguments->text[CZ_OPTION_OUTPUT]);
+    const int code = cz_save_results(arguments, report, arguments->text[CZ_OPTION_OUTPUT]);
     return code != 0 ? code : cz_print_results(arguments, report);
 }
 

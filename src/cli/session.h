@@ -43,7 +43,7 @@ CzReport cz_session_report(CzSession *session, CzReportKind kind, double wall_s)
 /* Prints results, a JSON document with --json, else tables; writes their folder (NULL: none). Both
  * report a failure and return its exit code, 0 on success. */
 CZ_MUST_CHECK int cz_print_results(const CzArguments *arguments, const CzReport *report);
-CZ_MUST_CHECK int cz_keep_results(const CzArguments *arguments, const CzReport *report,
+CZ_MUST_CHECK int cz_save_results(const CzArguments *arguments, const CzReport *report,
                                   const char *folder);
 
 /* Whether results can be written to a folder (NULL: to none), before any run; returns the exit

@@ -63,7 +63,7 @@ int cz_session_deliver_shard(CzSession *session, const CzReport *report) {
     if (session->arguments->text[CZ_OPTION_SHARD] == NULL)
         return cz_session_deliver(session, report);
     if (add_words(session->arguments, &session->options, &error) != CZ_OK)
-        return cz_tell_error(session->arguments, &error);
+        return cz_print_error(session->arguments, &error);
     const int code = cz_session_deliver(session, report);
     free((void *)session->options.shard_word);
     session->options.shard_word = NULL;

@@ -72,7 +72,7 @@ static bool find_influence(Car *car, CzTrackMotion *track, CzArena *arena) {
         load[j] = 1.0;
         if (!cz_track_lay(track, j, place, load, arena))
             return false;
-        cz_track_look(track, j, place, deflection, car->flexibility);
+        cz_track_deflection(track, j, place, deflection, car->flexibility);
         for (int i = 0; i < 4; i++)
             car->influence[i][j] = deflection[i];
     }

@@ -53,7 +53,7 @@ static void look_at_elements(CzElements *elements, CzBlock *d, int block) {
         if (!elements->under[index].is_laid)
             continue;
         find_wheels(d, i, place);
-        cz_elements_look(elements, index, place, point);
+        cz_elements_deflection(elements, index, place, point);
         for (int axle = 0; axle < 4; ++axle)
             put_rail(&d->rail[axle], i, point[axle]);
     }

@@ -24,8 +24,8 @@ static Standing standing_of(const CzBlock *block, size_t i) {
 static bool lay_modes(CzDynamics *dynamics, size_t lane, Standing *standing, CzArena *arena) {
     if (!cz_track_lay(dynamics->track, lane, standing->place, standing->load, arena))
         return false;
-    cz_track_look(dynamics->track, lane, standing->place, standing->deflection,
-                  standing->flexibility);
+    cz_track_deflection(dynamics->track, lane, standing->place, standing->deflection,
+                        standing->flexibility);
     return true;
 }
 
@@ -33,7 +33,7 @@ static bool lay_elements(CzDynamics *dynamics, size_t lane, Standing *standing, 
     CzRailPoint point[4];
     if (!cz_elements_lay(dynamics->elements, lane, standing->place, standing->load, arena))
         return false;
-    cz_elements_look(dynamics->elements, lane, standing->place, point);
+    cz_elements_deflection(dynamics->elements, lane, standing->place, point);
     for (int axle = 0; axle < 4; ++axle) {
         standing->deflection[axle] = point[axle].z;
         standing->flexibility[axle] = point[axle].flexibility;
@@ -46,8 +46,8 @@ static void lay_receptance(CzDynamics *dynamics, size_t lane, const CzTrackModes
     const CzBlock *block = cz_block_of(dynamics, lane);
     const double axle_spacing = 2.0 * block->parameter.axle_x[lane % CZ_LANE_BLOCK];
     cz_receptance_lay(dynamics->receptance, lane, modes, axle_spacing, standing->load);
-    cz_receptance_look(dynamics->receptance, lane, standing->place, standing->deflection,
-                       standing->flexibility);
+    cz_receptance_deflection(dynamics->receptance, lane, standing->place, standing->deflection,
+                             standing->flexibility);
 }
 
 static bool lay_under(CzDynamics *dynamics, size_t lane, const CzTrackModes *modes,

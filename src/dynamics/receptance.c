@@ -175,8 +175,8 @@ void cz_receptance_move(CzReceptanceMotion *track, size_t lane, const CzReceptan
     cz_copy_lane(to->past, i, old->past, k, sizeof to->past);
 }
 
-void cz_receptance_look(const CzReceptanceMotion *track, size_t lane, const double place[4],
-                        double deflection[4], double flexibility[4]) {
+void cz_receptance_deflection(const CzReceptanceMotion *track, size_t lane, const double place[4],
+                              double deflection[4], double flexibility[4]) {
     const CzReceptanceBlock *block = &track->block[lane / CZ_LANE_BLOCK];
     const size_t i = lane % CZ_LANE_BLOCK;
     for (int wheel = 0; wheel < 4; wheel++) {

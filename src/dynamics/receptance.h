@@ -69,8 +69,8 @@ void cz_receptance_move(CzReceptanceMotion *track, size_t lane, const CzReceptan
 
 /* Deflection of the modes under each wheel now [m], and the additional flexibility at the wheels'
  * places [m/N]. */
-void cz_receptance_look(const CzReceptanceMotion *track, size_t lane, const double place[4],
-                        double deflection[4], double flexibility[4]);
+void cz_receptance_deflection(const CzReceptanceMotion *track, size_t lane, const double place[4],
+                              double deflection[4], double flexibility[4]);
 
 /* Energy that the track under each car of a block can return, half a step ago [J]. */
 void cz_receptance_energy(const CzReceptanceMotion *track, int block, CzRow energy);

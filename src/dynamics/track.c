@@ -186,8 +186,8 @@ bool cz_track_lay(CzTrackMotion *track, size_t index, const double place[4], con
     return true;
 }
 
-void cz_track_look(const CzTrackMotion *track, size_t index, const double place[4],
-                   double deflection[4], double flexibility[4]) {
+void cz_track_deflection(const CzTrackMotion *track, size_t index, const double place[4],
+                         double deflection[4], double flexibility[4]) {
     CzComplex seat[4];
     cz_track_shapes(track, place, track->under[index].shape, seat);
     for (int wheel = 0; wheel < 4; ++wheel) {
@@ -307,7 +307,7 @@ static void rate_of_group(const CzTrackGroup *group, const CzTrackRows *rows, bo
             rate_re[i] += rows->alias_now_re[i] * waves->alias_load[i];
             rate_im[i] += rows->alias_now_im[i] * waves->alias_load[i];
         }
-    cz_track_give(rows, rate_re, rate_im, aliased, waves);
+    cz_track_add_displacement(rows, rate_re, rate_im, aliased, waves);
 }
 
 /* Rate of the rail at the wheels by a row of waves. */

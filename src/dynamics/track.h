@@ -24,8 +24,8 @@ bool cz_track_lay(CzTrackMotion *track, size_t index, const double place[4], con
 
 /* Deflection of the modes under each wheel at the places of the last look or step [m], and the
  * additional flexibility [m/N]. */
-void cz_track_look(const CzTrackMotion *track, size_t index, const double place[4],
-                   double deflection[4], double flexibility[4]);
+void cz_track_deflection(const CzTrackMotion *track, size_t index, const double place[4],
+                         double deflection[4], double flexibility[4]);
 
 /* Half a step before the time that the state is at, when the last forces had just ended: energy
  * of the track under a car, kinetic and potential above the unloaded track [J], and the power that

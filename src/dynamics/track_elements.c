@@ -361,8 +361,8 @@ static void follow(const CzElements *elements, size_t lane, const double place[4
     under->from += n_bay * d;
 }
 
-void cz_elements_look(CzElements *elements, size_t lane, const double place[4],
-                      CzRailPoint point[4]) {
+void cz_elements_deflection(CzElements *elements, size_t lane, const double place[4],
+                            CzRailPoint point[4]) {
     const CzSeats *seats = &elements->seats;
     const CzElementsBlock *block = block_of(elements, lane);
     CzElementsUnder *under = &elements->under[lane];

@@ -74,8 +74,8 @@ bool cz_elements_lay(CzElements *elements, size_t lane, const double place[4], c
 /* The rail under each wheel: deflection now and half a step ago, slope, additional flexibility
  * between the nodes and its change along the track. Moves the piece when the car has left its
  * middle. */
-void cz_elements_look(CzElements *elements, size_t lane, const double place[4],
-                      CzRailPoint point[4]);
+void cz_elements_deflection(CzElements *elements, size_t lane, const double place[4],
+                            CzRailPoint point[4]);
 
 /* Deflection half a step ago at the places of the last look. */
 double cz_elements_past(const CzElements *elements, size_t lane, int wheel);

@@ -162,8 +162,9 @@ typedef struct {
 } CzTrackWaves;
 
 /* Adds the displacement of one group of modes. */
-static inline void cz_track_give(const CzTrackRows *rows, const double *restrict re,
-                                 const double *restrict im, bool aliased, CzTrackWaves *waves) {
+static inline void cz_track_add_displacement(const CzTrackRows *rows, const double *restrict re,
+                                             const double *restrict im, bool aliased,
+                                             CzTrackWaves *waves) {
     CZ_WAVES(i) {
         waves->direct[i] += rows->now_re[i] * re[i] - rows->now_im[i] * im[i];
         waves->direct_past[i] += rows->past_re[i] * re[i] - rows->past_im[i] * im[i];
@@ -250,8 +251,9 @@ static inline void cz_track_read(const CzTrackMotion *track, CzTrackUnder *under
             CzTrackWaves waves;
             cz_track_no_waves(&waves);
             for (int k = span.first; k < span.end; ++k)
-                cz_track_give(&track->rows[k], under->state[2 * k], under->state[2 * k + 1],
-                              v >= track->modes->first_alias, &waves);
+                cz_track_add_displacement(&track->rows[k], under->state[2 * k],
+                                          under->state[2 * k + 1], v >= track->modes->first_alias,
+                                          &waves);
             cz_track_keep_waves(track, under, copy, v, &waves);
         }
 }
@@ -267,7 +269,7 @@ cz_track_step_row(const CzTrackMotion *track, CzTrackUnder *under, int copy, int
     for (int k = span.first; k < span.end; ++k) {
         double *restrict re = under->state[2 * k], *restrict im = under->state[2 * k + 1];
         cz_track_flight(&track->rows[k], &waves, aliased, re, im);
-        cz_track_give(&track->rows[k], re, im, aliased, &waves);
+        cz_track_add_displacement(&track->rows[k], re, im, aliased, &waves);
     }
     cz_track_add_work(track, under, copy, v, aliased, &waves, work);
     cz_track_keep_waves(track, under, copy, v, &waves);

@@ -118,7 +118,7 @@ static bool user_sets(const CzChecks *checks, const char *name) {
 /* Each scenario that the profile asks for and that is not run is not checked. */
 static CzStatus append_not_run(Builder *builder, const CzProfile *profile) {
     int n_asked;
-    const CzAskedScenario *asked = cz_problem_asked(builder->problem, &n_asked);
+    const CzAskedScenario *asked = cz_problem_profile_scenarios(builder->problem, &n_asked);
     for (int i = 0; i < n_asked; i++) {
         if (asked[i].standing != CZ_STANDING_NOT_SELECTED)
             continue;

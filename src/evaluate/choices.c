@@ -40,8 +40,8 @@ static CzStatus read_choice(const CzProblem *problem, const CzDesignVariable *va
     return status;
 }
 
-CzStatus cz_choice_settle(const CzProblem *problem, const CzDesignVariable *variable, int *own,
-                          CzError *error) {
+CzStatus cz_choice_find_start(const CzProblem *problem, const CzDesignVariable *variable, int *own,
+                              CzError *error) {
     CzProblem *chosen[CZ_MOST_COMBINATIONS] = {NULL};
     int n_vehicle;
     const CzVehicle *vehicles = cz_problem_vehicles(problem, &n_vehicle);

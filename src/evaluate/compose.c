@@ -211,7 +211,7 @@ static CzValueResult value_over_runs(const CzEvaluator *evaluator, const CzVehic
     const bool smallest = metric->aggregate == CZ_AGGREGATE_MIN;
     CzValueResult worst = {.metric = wanted->name, .unit = metric->kind->unit->text, .value = NAN};
     for (int s = 0; s < evaluator->n_scene; s++) {
-        if (run[s] == NULL || !cz_wanted_is_of(wanted, &evaluator->scene[s]) ||
+        if (run[s] == NULL || !cz_wanted_in_scenario(wanted, &evaluator->scene[s]) ||
             (beyond_validity && metric->kind->is_total))
             continue;
         const CzSubject subject = subject_in(evaluator, vehicles, s, run);

@@ -303,7 +303,7 @@ static CzStatus settle_choice(const Builder *builder, const CzVariable *written,
     info->max = n - 1;
     info->increment = 1;
     int own = 0;
-    const CzStatus status = cz_choice_settle(builder->problem, variable, &own, builder->error);
+    const CzStatus status = cz_choice_find_start(builder->problem, variable, &own, builder->error);
     info->start = own;
     return cz_problem_place_failure(builder->problem, &written->choices, status, builder->error);
 }

@@ -70,8 +70,9 @@ enum { CZ_MOST_COMBINATIONS = 64 };
 
 /* Finds the choice of the file itself; any two choices must differ. Statuses: CZ_OK,
  * CZ_STATUS_INPUT without a place, CZ_STATUS_NO_MEMORY. */
-CZ_MUST_CHECK CzStatus cz_choice_settle(const CzProblem *problem, const CzDesignVariable *variable,
-                                        int *own, CzError *error);
+CZ_MUST_CHECK CzStatus cz_choice_find_start(const CzProblem *problem,
+                                            const CzDesignVariable *variable, int *own,
+                                            CzError *error);
 
 /* Combinations of all choices: 1 without any. The first choice of the file changes fastest. */
 int cz_design_n_combination(const CzDesign *design);

@@ -21,9 +21,9 @@ typedef struct CzManner {
 /* Evaluates one design with other settings of the runs, which are kept without channels; x as in
  * cz_evaluate.
  */
-CZ_MUST_CHECK CzStatus cz_evaluator_again(const CzEvaluator *evaluator, const CzManner *manner,
-                                          const double *x, CzEvaluation *evaluation,
-                                          CzError *error);
+CZ_MUST_CHECK CzStatus cz_evaluator_repeat(const CzEvaluator *evaluator, const CzManner *manner,
+                                           const double *x, CzEvaluation *evaluation,
+                                           CzError *error);
 
 /* Whether the parameters of the problem are fitted to measurements: the objective is a sum of
  * squares, and the last constraints are the matches. */
@@ -118,8 +118,8 @@ CZ_MUST_CHECK CzStatus cz_evaluator_search_some(const CzEvaluator *evaluator, co
                                                 CzError *error);
 
 /* Runs one design in the scenarios that are left, and replaces its evaluation by that in all. */
-CZ_MUST_CHECK CzStatus cz_evaluator_search_rest(const CzEvaluator *evaluator, const bool *some,
-                                                const double *x, CzEvaluation *evaluation,
-                                                double *detail, CzError *error);
+CZ_MUST_CHECK CzStatus cz_evaluator_search_remaining(const CzEvaluator *evaluator, const bool *some,
+                                                     const double *x, CzEvaluation *evaluation,
+                                                     double *detail, CzError *error);
 
 #endif

@@ -73,7 +73,7 @@ static inline CzVariantScenes cz_evaluator_scenes(const CzEvaluator *evaluator) 
 }
 
 /* Whether a metric is wanted of a scenario (wanted.c). */
-bool cz_wanted_is_of(const CzWanted *wanted, const CzScene *scene);
+bool cz_wanted_in_scenario(const CzWanted *wanted, const CzScene *scene);
 
 /* The vehicles of a scenario among those of all variations of a design. */
 static inline const CzVehicle *cz_vehicles_in(const CzEvaluator *evaluator,

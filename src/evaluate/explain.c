@@ -314,16 +314,16 @@ static const struct {
     CzEventKind what;
     CzCause cause;
     const char *before, *behind;
-} telling[] = {{CZ_EVENT_BOTTOMED_OUT, CZ_CAUSE_BOTTOMING, "", " bottomed out"},
-               {CZ_EVENT_SWING_STOP, CZ_CAUSE_STRUT, "", " met its swing stop"},
-               {CZ_EVENT_LIFT_STOP, CZ_CAUSE_SUSPENSION, "lift stop of the ", " met"},
-               {CZ_EVENT_BUMP_STOP, CZ_CAUSE_SUSPENSION, "bump stop of the ", " met"}};
+} indicating[] = {{CZ_EVENT_BOTTOMED_OUT, CZ_CAUSE_BOTTOMING, "", " bottomed out"},
+                  {CZ_EVENT_SWING_STOP, CZ_CAUSE_STRUT, "", " met its swing stop"},
+                  {CZ_EVENT_LIFT_STOP, CZ_CAUSE_SUSPENSION, "lift stop of the ", " met"},
+                  {CZ_EVENT_BUMP_STOP, CZ_CAUSE_SUSPENSION, "bump stop of the ", " met"}};
 
 static void add_event(CzExplanation *explanation, const CzEvent *event) {
-    for (size_t i = 0; i < sizeof telling / sizeof *telling; i++)
-        if (telling[i].what == event->what)
-            indicate(explanation, telling[i].cause, event->time, "%s%s%s", telling[i].before,
-                     event->where, telling[i].behind);
+    for (size_t i = 0; i < sizeof indicating / sizeof *indicating; i++)
+        if (indicating[i].what == event->what)
+            indicate(explanation, indicating[i].cause, event->time, "%s%s%s", indicating[i].before,
+                     event->where, indicating[i].behind);
 }
 
 /* Whole kN for a sentence. */

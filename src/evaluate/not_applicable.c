@@ -39,7 +39,7 @@ static bool has_it(const CzInput *input, const CzProfileScenario *asked, double 
 CzStatus cz_not_applicable_list(const CzProblem *problem, CzArena *arena, CzChecklist *list,
                                 CzError *error) {
     int n_asked;
-    const CzAskedScenario *asked = cz_problem_asked(problem, &n_asked);
+    const CzAskedScenario *asked = cz_problem_profile_scenarios(problem, &n_asked);
     const char **text = cz_arena_allocate(arena, (size_t)n_asked + 1, sizeof *text);
     list->not_applicable = text;
     for (int i = 0; text != NULL && i < n_asked; i++) {

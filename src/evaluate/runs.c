@@ -426,8 +426,9 @@ CzStatus cz_evaluator_search_some(const CzEvaluator *evaluator, const bool *some
     return evaluate_all(&settings, n_point, x, evaluation, detail, error);
 }
 
-CzStatus cz_evaluator_search_rest(const CzEvaluator *evaluator, const bool *some, const double *x,
-                                  CzEvaluation *evaluation, double *detail, CzError *error) {
+CzStatus cz_evaluator_search_remaining(const CzEvaluator *evaluator, const bool *some,
+                                       const double *x, CzEvaluation *evaluation, double *detail,
+                                       CzError *error) {
     Block settings = search_settings(evaluator);
     CzEvaluation begun = *evaluation;
     settings.some = some;
@@ -437,8 +438,8 @@ CzStatus cz_evaluator_search_rest(const CzEvaluator *evaluator, const bool *some
     return status;
 }
 
-CzStatus cz_evaluator_again(const CzEvaluator *evaluator, const CzManner *manner, const double *x,
-                            CzEvaluation *evaluation, CzError *error) {
+CzStatus cz_evaluator_repeat(const CzEvaluator *evaluator, const CzManner *manner, const double *x,
+                             CzEvaluation *evaluation, CzError *error) {
     const Block settings = {.evaluator = evaluator, .keep = true, .manner = *manner};
     return evaluate_all(&settings, 1, x, evaluation, NULL, error);
 }

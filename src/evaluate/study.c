@@ -9,13 +9,13 @@ void cz_study_put(CzMemoryText *request, const CzStudy *study) {
     cz_put(request, &name, 1, sizeof name);
 }
 
-static CzStatus tell(const CzStudy *study, CzMemoryText *message, CzError *error) {
+static CzStatus broadcast(const CzStudy *study, CzMemoryText *message, CzError *error) {
     const CzBytes bytes = {.n = message->n, .byte = message->text};
-    return study->executor.tell(&study->executor, &bytes, error);
+    return study->executor.broadcast(&study->executor, &bytes, error);
 }
 
 CzStatus cz_study_begin(CzStudy *study, CzError *error) {
-    if (study->is_known || study->executor.tell == NULL)
+    if (study->is_known || study->executor.broadcast == NULL)
         return CZ_OK;
     CzMemoryText message = {0};
     cz_study_put(&message, study);
@@ -23,7 +23,7 @@ CzStatus cz_study_begin(CzStudy *study, CzError *error) {
     cz_put_int(&message, (int)study->kind);
     study->describe(study->data, &message);
     const bool is_described = !message.failed;
-    const CzStatus status = is_described ? tell(study, &message, error) : CZ_OK;
+    const CzStatus status = is_described ? broadcast(study, &message, error) : CZ_OK;
     study->is_known = is_described && status == CZ_OK;
     cz_memory_text_free(&message);
     return status;
@@ -36,8 +36,8 @@ void cz_study_end(CzStudy *study) {
     cz_study_put(&message, study);
     cz_put_int(&message, false);
     if (!message.failed)
-        (void)tell(study, &message,
-                   NULL); /* a worker that cannot be told is lost with all others */
+        (void)broadcast(study, &message,
+                        NULL); /* a worker that cannot be reached is lost with all others */
     cz_memory_text_free(&message);
     study->is_known = false;
 }

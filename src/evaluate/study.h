@@ -1,7 +1,7 @@
 /* Studies in several processes: a worker makes a study again from its description, and then runs
  * tasks of it.
  *
- *   here     study --describe--> bytes --tell--> every worker: open
+ *   here     study --describe--> bytes --broadcast--> every worker: open
  *            task --request--> bytes --executor--> a worker: answer --> bytes --take--> results
  */
 #ifndef CZ_EVALUATE_STUDY_H
@@ -28,13 +28,13 @@ typedef enum CzStudyNumber {
     CZ_STUDY_OF_RUNS,
     CZ_STUDY_OF_SAMPLES,
     CZ_STUDY_OF_POINTS,
-    CZ_STUDY_OF_A_CHALLENGE,
+    CZ_STUDY_OF_CHALLENGE,
     CZ_N_STUDY_KIND
 } CzStudyNumber;
-extern const CzStudyKind cz_study_of_runs;        /* runs.c */
-extern const CzStudyKind cz_study_of_samples;     /* sampling.c */
-extern const CzStudyKind cz_study_of_points;      /* sweep.c */
-extern const CzStudyKind cz_study_of_a_challenge; /* optimise/challenge_study.c */
+extern const CzStudyKind cz_study_of_runs;      /* runs.c */
+extern const CzStudyKind cz_study_of_samples;   /* sampling.c */
+extern const CzStudyKind cz_study_of_points;    /* sweep.c */
+extern const CzStudyKind cz_study_of_challenge; /* optimise/challenge_study.c */
 
 /* A study of this process, which the workers of its executor get to know with its first batch. */
 typedef struct CzStudy {

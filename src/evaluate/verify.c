@@ -274,7 +274,7 @@ static CzStatus run_method(CzVerification *verification, const CzEvaluator *eval
     CzManner manner = manner_of(evaluator, method, verification->solver_step);
     CzEvaluation evaluation = {0};
     manner.brief = verification->until_settled;
-    CZ_TRY(cz_evaluator_again(evaluator, &manner, x, &evaluation, error));
+    CZ_TRY(cz_evaluator_repeat(evaluator, &manner, x, &evaluation, error));
     if (evaluation.status != CZ_OK) {
         write_failure(verification, methods[method].text, &evaluation);
     } else {
@@ -342,7 +342,7 @@ static CzStatus find_settled(CzVerification *verification, const CzEvaluator *ev
                              CzEvaluation *settled, CzError *error) {
     CzManner manner = evaluator->manner;
     manner.brief = true;
-    CZ_TRY(cz_evaluator_again(evaluator, &manner, x, settled, error));
+    CZ_TRY(cz_evaluator_repeat(evaluator, &manner, x, settled, error));
     verification->until_settled =
         settled->status == CZ_OK &&
         has_same_checks(evaluator, verification->limit, record, settled, number);
@@ -405,7 +405,7 @@ CzStatus cz_verify(CzEvaluator *evaluator, const double *x, const CzEvaluation *
     if (verification == NULL)
         return cz_no_memory(error, "the verification");
     if (record == NULL)
-        status = cz_evaluator_again(evaluator, &evaluator->manner, x, &own, error);
+        status = cz_evaluator_repeat(evaluator, &evaluator->manner, x, &own, error);
     if (status == CZ_OK)
         status = verify(verification, evaluator, x, record != NULL ? record : &own, &chosen, error);
     cz_evaluation_free(&own);

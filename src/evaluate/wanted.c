@@ -23,7 +23,7 @@ static CzStatus read_wanted(const CzEvaluator *evaluator, const char *text, CzWa
     return CZ_OK;
 }
 
-bool cz_wanted_is_of(const CzWanted *wanted, const CzScene *scene) {
+bool cz_wanted_in_scenario(const CzWanted *wanted, const CzScene *scene) {
     return wanted->scenario[0] == '\0' || cz_scene_is(scene, wanted->scenario);
 }
 
@@ -44,7 +44,7 @@ CzStatus cz_evaluator_set_values(CzEvaluator *evaluator, int n_metric, const cha
 
 bool cz_evaluator_has_metric(const CzEvaluator *evaluator, int wanted) {
     for (int s = 0; s < evaluator->n_scene; s++)
-        if (cz_wanted_is_of(&evaluator->wanted[wanted], &evaluator->scene[s]) &&
+        if (cz_wanted_in_scenario(&evaluator->wanted[wanted], &evaluator->scene[s]) &&
             cz_metric_picks(&evaluator->wanted[wanted].metric, &evaluator->scene[s]))
             return true;
     return false;

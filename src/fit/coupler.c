@@ -143,8 +143,8 @@ static void fit_shear_off(CzFit *fit, const CzBranch *branch, const Parts *parts
                           cz_number_print_short(kN, 1e-3 * parts->force),
                           cz_number_print_short(kept, 1e-3 * parts->residual),
                           cz_number_print_short(at, 1e3 * parts->peak));
-    cz_fit_note_down(fit, "retraction_space is the free travel of the curve; the coupler's own may "
-                          "be longer");
+    cz_fit_add_note(fit, "retraction_space is the free travel of the curve; the coupler's own may "
+                         "be longer");
 }
 
 /* ---- buffer ---- */
@@ -165,7 +165,7 @@ static CzStatus fit_buffer(CzFit *fit, const CzBranch *part, CzError *error) {
         preloaded.n_stage <= fit->buffer.n_stage)
         fit->buffer = preloaded;
     fit->buffer.bottom_stiffness = cz_fit_key(CZ_RECORD_CzBuffer, "bottom_stiffness")->absent;
-    cz_fit_let_rise(&fit->buffer);
+    cz_fit_make_rising(&fit->buffer);
     return CZ_OK;
 }
 
@@ -255,7 +255,7 @@ static CzStatus fit_members(CzFit *fit, const CzBranch *branch, int n_stage, Par
     cz_fit_round_staged(&fit->buffer);
     fit->member.bottom_stiffness = parts->stop_stiffness;
     CZ_TRY(cz_fit_place_stop(fit, &parts->rise, &fit->member, &behind, error));
-    return cz_fit_settle(fit, &fit->member, &behind, error);
+    return cz_fit_match_energy(fit, &fit->member, &behind, error);
 }
 
 /* Fits a buffer without a tube: the whole curve up to its end or its drop. */
@@ -265,7 +265,7 @@ static CzStatus fit_buffer_alone(CzFit *fit, const CzBranch *branch, Parts *part
         return cz_no_memory(error, "a fit");
     CZ_TRY(fit_buffer(fit, &part, error));
     CZ_TRY(cz_fit_place_stop(fit, &parts->rise, &fit->buffer, &part, error));
-    CZ_TRY(cz_fit_settle(fit, &fit->buffer, &part, error));
+    CZ_TRY(cz_fit_match_energy(fit, &fit->buffer, &part, error));
     if (is_reversible(&fit->trace))
         fit->share = cz_fit_round(fmin(fit->summary.returned / fit->summary.energy, 1.0), 1.0);
     return CZ_OK;
@@ -318,7 +318,7 @@ CzStatus cz_fit_coupler(CzFit *fit, int n_stage, CzError *error) {
     if (!isnan(parts.force))
         fit_shear_off(fit, &branch, &parts);
     if (parts.too_much > 0.0)
-        cz_fit_note_down(
+        cz_fit_add_note(
             fit,
             "the force drops to %.0f %% of its peak and stays there: more than the %.0f %% that "
             "friction after a shear-off can give, so both are stages of the tube",

@@ -110,10 +110,10 @@ static void stiffen(CzFit *fit, const CzKey *key) {
     const double factor = missing_stiffness(fit);
     if (factor <= 1.0)
         return;
-    cz_fit_note_down(fit,
-                     "unloading is %.3g times as stiff as measured: a softer one would return more "
-                     "energy than the steepest stage received",
-                     factor);
+    cz_fit_add_note(fit,
+                    "unloading is %.3g times as stiff as measured: a softer one would return more "
+                    "energy than the steepest stage received",
+                    factor);
     fit->unloading = within(key, fit->unloading * factor * more);
     fit->second_unloading = within(key, fit->second_unloading * factor * more);
     if (missing_stiffness(fit) <= 1.0)
@@ -153,16 +153,16 @@ static void fit_unloading(CzFit *fit, double peak) {
         const Unloading found = unload_with(&fit->trace, peak, share);
         first = second = mean_unloading(&fit->trace, peak);
         if (one_line_will_do(&fit->trace, peak, first))
-            cz_fit_note_down(fit,
-                             "one stiffness describes the unloading; a second stage is not needed");
+            cz_fit_add_note(fit,
+                            "one stiffness describes the unloading; a second stage is not needed");
         else if (found.left < INFINITY) {
             fit->share = share;
             first = 1.0 / found.c_1;
             second = 1.0 / found.c_2;
         } else
-            cz_fit_note_down(fit, "the unloading does not have two stages; one stiffness is taken");
+            cz_fit_add_note(fit, "the unloading does not have two stages; one stiffness is taken");
     } else
-        cz_fit_note_down(fit, "the curve does not unload; unloading_stiffness is a guess (ours)");
+        cz_fit_add_note(fit, "the curve does not unload; unloading_stiffness is a guess (ours)");
     fit->unloading = within(key, first);
     fit->second_unloading = within(key, second);
     stiffen(fit, key);
@@ -180,7 +180,7 @@ CzStatus cz_fit_end(CzFit *fit, int n_stage, CzError *error) {
         return cz_no_memory(error, "a fit");
     fit->member.bottom_stiffness = cz_fit_key(CZ_RECORD_CzEnd, "bottom_stiffness")->absent;
     CZ_TRY(cz_fit_place_stop(fit, &stop, &fit->member, &part, error));
-    CZ_TRY(cz_fit_settle(fit, &fit->member, &part, error));
+    CZ_TRY(cz_fit_match_energy(fit, &fit->member, &part, error));
     const double peak = fit->member.stage[fit->member.n_stage - 1].force;
     fit_unloading(fit, peak);
     const CzVehicleEndLaw law = {.unloading = fit->unloading,

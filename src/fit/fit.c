@@ -172,7 +172,7 @@ static CzStatus fit_law(CzFit *fit, int n_stage, CzError *error) {
         CZ_TRY(cz_fit_end(fit, n_stage, error));
     else
         CZ_TRY(cz_fit_plastic(fit, n_stage, error));
-    cz_fit_note_down(
+    cz_fit_add_note(
         fit,
         summary->is_dynamic
             ? "dynamic: the curve contains the rate effect, so rate factor and damping are zero"
@@ -180,7 +180,7 @@ static CzStatus fit_law(CzFit *fit, int n_stage, CzError *error) {
     summary->law_energy = cz_fit_law_energy(fit);
     cz_fit_compare(fit);
     cz_fit_judge(fit);
-    cz_fit_load_whole(fit, &fit->whole);
+    cz_fit_load_full_stroke(fit, &fit->whole);
     summary->value = fit->value;
     summary->curve = (CzFitLoading){fit->curve.n, fit->curve.x, fit->curve.f};
     summary->law = (CzFitLoading){fit->whole.n, fit->whole.x, fit->whole.f};

@@ -7,7 +7,10 @@
 #include "problem/keys.h"
 #include "problem/trace.h"
 
-enum { CZ_FIT_MOST_VALUES = 4 * CZ_MAX_STAGES + 16, CZ_MOST_CORNERS = 2 * CZ_MOST_BENDS + 12 };
+enum {
+    CZ_FIT_MOST_VALUES = 4 * CZ_MAX_STAGES + 16,
+    CZ_MOST_CORNERS = 2 * CZ_MOST_STAGED_BREAKPOINTS + 12
+};
 
 /* Force over shortening as straight lines; x never falls. */
 typedef struct CzLoading {
@@ -57,7 +60,7 @@ CZ_MUST_CHECK CzStatus cz_fit_coupler(CzFit *fit, int n_stage, CzError *error);
 
 #define CZ_FIT_ROUNDING 1e-13 /* relative error of a sum */
 
-/* ---- for all kinds (settle.c) ---- */
+/* ---- for all kinds (match_energy.c) ---- */
 
 /* Fails because no law of the kind fits the curve. */
 CzStatus cz_fit_no_law(const CzFit *fit, CzError *error, const char *why);
@@ -81,16 +84,16 @@ void cz_fit_round_staged(CzStaged *staged);
 void cz_fit_scale_forces(CzStaged *staged, int stage, double factor);
 
 /* Raises forces that are below the previous one, because a buffer's force does not fall. */
-void cz_fit_let_rise(CzStaged *staged);
+void cz_fit_make_rising(CzStaged *staged);
 
 /* Rounds a member of the law over its part of the branch, strokes first, and sets the force of its
  * longest stage, or all forces of a buffer, so that the law absorbs exactly summary.energy. Fails
  * when that force would differ too much from the curve. */
-CZ_MUST_CHECK CzStatus cz_fit_settle(CzFit *fit, CzStaged *staged, const CzBranch *branch,
-                                     CzError *error);
+CZ_MUST_CHECK CzStatus cz_fit_match_energy(CzFit *fit, CzStaged *staged, const CzBranch *branch,
+                                           CzError *error);
 
 /* Adds a sentence to the summary: a remark for the user, or a reason why the law is doubtful. */
-void cz_fit_note_down(CzFit *fit, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void cz_fit_add_note(CzFit *fit, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void cz_fit_doubt_that(CzFit *fit, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Key of the problem file: its default and its range [SI]. */
@@ -123,7 +126,7 @@ double cz_fit_law_energy(const CzFit *fit);
 
 /* The same over the whole stroke of the curve: beyond its own stroke the law rises along its stop,
  * or has the residual force of a shear-off. */
-void cz_fit_load_whole(const CzFit *fit, CzLoading *loading);
+void cz_fit_load_full_stroke(const CzFit *fit, CzLoading *loading);
 
 /* Fills the differences of the summary. */
 void cz_fit_compare(CzFit *fit);

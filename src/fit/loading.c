@@ -26,12 +26,12 @@ static void add(CzLoading *loading, double x, double f) {
 /* Appends a staged curve whose stroke begins at `from`; returns its end. */
 static double add_staged(CzLoading *loading, const CzStaged *staged, double from,
                          double compliance) {
-    double at[CZ_MOST_BENDS];
+    double at[CZ_MOST_STAGED_BREAKPOINTS];
     CzBreakpoints breakpoints;
     if (staged->n_stage == 0)
         return from;
     cz_staged_breakpoints(staged, &breakpoints);
-    const int n = cz_staged_bends(staged, at);
+    const int n = cz_staged_breakpoint_strokes(staged, at);
     for (int i = 0; i < n; i++) {
         const double force = cz_breakpoints_value(&breakpoints, at[i]);
         add(loading, from + at[i] + force * compliance, force);
@@ -82,7 +82,7 @@ void cz_fit_load(const CzFit *fit, CzLoading *loading) {
         add(loading, at + fit->retraction + fit->residual * compliance, fit->residual);
 }
 
-void cz_fit_load_whole(const CzFit *fit, CzLoading *loading) {
+void cz_fit_load_full_stroke(const CzFit *fit, CzLoading *loading) {
     cz_fit_load(fit, loading);
     const double last = loading->x[loading->n - 1], end = cz_branch_last(&fit->curve);
     if (end - last <= rounded * end)
@@ -161,7 +161,7 @@ static void compare_samples(CzFit *fit, const CzLoading *loading, double end) {
 void cz_fit_compare(CzFit *fit) {
     CzFitSummary *summary = &fit->summary;
     CzLoading loading;
-    cz_fit_load_whole(fit, &loading);
+    cz_fit_load_full_stroke(fit, &loading);
     const double end = fmin(loading.x[loading.n - 1], cz_branch_last(&fit->curve));
     summary->largest_difference = summary->at_stroke = summary->law_peak = 0.0;
     for (int i = 0; i < fit->curve.n && fit->curve.x[i] <= end; i++)

@@ -60,7 +60,7 @@ static double find_stiffness(CzFit *fit, const CzStop *stop) {
         stiffness = stiffness_of_unloading(&fit->trace);
     else if (!(stiffness >= STEEPER * peak / last && isfinite(stiffness))) {
         stiffness = key->absent;
-        cz_fit_note_down(fit, "the curve shows no elastic rise; stiffness is the usual one (ours)");
+        cz_fit_add_note(fit, "the curve shows no elastic rise; stiffness is the usual one (ours)");
     }
     return cz_fit_round(fmin(fmax(stiffness, key->lo), key->hi), 1e6);
 }
@@ -70,14 +70,14 @@ CzStatus cz_fit_plastic(CzFit *fit, int n_stage, CzError *error) {
     const CzStop stop = cz_fit_find_stop(fit);
     fit->stiffness = cz_fit_stiffness_for(fit, &stop, find_stiffness(fit, &stop));
     if (!isfinite(fit->stiffness))
-        cz_fit_note_down(fit, "the curve begins with force: its strokes are taken as plastic");
+        cz_fit_add_note(fit, "the curve begins with force: its strokes are taken as plastic");
     CZ_TRY(cz_fit_branch(fit, fit->stiffness, &branch, error));
     if (!cz_branch_cut(&fit->arena, &branch, 0.0, branch.x[stop.onset], &part) ||
         !cz_fit_plateaus(&fit->arena, &part, n_stage, fit->stiffness, &fit->member))
         return cz_no_memory(error, "a fit");
     fit->member.bottom_stiffness = cz_fit_key(CZ_RECORD_CzAntiClimber, "bottom_stiffness")->absent;
     CZ_TRY(cz_fit_place_stop(fit, &stop, &fit->member, &part, error));
-    CZ_TRY(cz_fit_settle(fit, &fit->member, &part, error));
+    CZ_TRY(cz_fit_match_energy(fit, &fit->member, &part, error));
     if (fit->trace.unloads && isfinite(fit->stiffness)) {
         CzLoading loading;
         cz_fit_load(fit, &loading);

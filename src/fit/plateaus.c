@@ -157,7 +157,7 @@ bool cz_fit_plateaus(CzArena *arena, const CzBranch *branch, int n_stage, double
         squares[n - 1] = best_of(table, branch, n, &peak, stiffness, &found[n - 1]);
     }
     const int n =
-        n_stage > 0 ? n_stage : stages_that_pay(squares, n_most, cz_staged_nothing(branch));
+        n_stage > 0 ? n_stage : stages_that_pay(squares, n_most, cz_staged_rounding(branch));
     *staged = found[n - 1];
     return true;
 }
@@ -208,7 +208,7 @@ bool cz_fit_split(CzArena *arena, const CzBranch *branch, int n_stage, double *a
     fill_table(table, &mirrored, 0.0, n_most);
     for (int n = 1; n <= n_most; n++)
         left[n - 1] = split_before(table, branch, n, &from[n - 1]);
-    *at = from[stages_that_pay(left, n_most, cz_staged_nothing(branch)) - 1];
+    *at = from[stages_that_pay(left, n_most, cz_staged_rounding(branch)) - 1];
     return true;
 }
 
@@ -312,7 +312,8 @@ bool cz_fit_lines(CzArena *arena, const CzBranch *branch, const CzLines *lines, 
         found[n - 1].has_preload = lines->has_preload;
         squares[n - 1] = best_lines(branch, stroke, n_stroke, shortest, &found[n - 1]);
     }
-    const int n = n_stage > 0 ? n_stage : stages_that_pay(squares, last, cz_staged_nothing(branch));
+    const int n =
+        n_stage > 0 ? n_stage : stages_that_pay(squares, last, cz_staged_rounding(branch));
     *staged = found[n - 1];
     return !arena->out_of_memory;
 }

@@ -32,7 +32,7 @@ static CzStatus make_trace(CzFit *fit, const CzSource *source, const CzFitOption
     if (!is_made && error != NULL)
         *error = mistakes.mistake[0]->error;
     for (int i = 0; is_made && i < fit->trace.n_note; i++)
-        cz_fit_note_down(fit, "%s", fit->trace.note[i]);
+        cz_fit_add_note(fit, "%s", fit->trace.note[i]);
     return is_made ? CZ_OK : CZ_STATUS_INPUT;
 }
 
@@ -59,8 +59,8 @@ CzStatus cz_fit_read_trace(CzFit *fit, const char *path, const CzFitOptions *opt
     CZ_TRY(cz_curve_points_read_file(&fit->arena, path, &request, &points, error));
     for (int i = 0; i < 2; i++)
         if (points.other_unit[i] != NULL)
-            cz_fit_note_down(fit, "the %s is read in %s as requested; the unit in the file is %s",
-                             request.column[i].name, request.column[i].unit, points.other_unit[i]);
+            cz_fit_add_note(fit, "the %s is read in %s as requested; the unit in the file is %s",
+                            request.column[i].name, request.column[i].unit, points.other_unit[i]);
     fit->trace = (CzTrace){.n = points.n, .x = points.x, .f = points.y, .line = points.line};
     return make_trace(fit, points.source, options, points.unit[0], error);
 }

@@ -6,11 +6,11 @@ set(CZ_SOURCES_fit
     end.c
     fit.c
     loading.c
+    match_energy.c
     plastic.c
     plateaus.c
     quality.c
     read.c
-    settle.c
     staged.c
     stop.c
     write_yaml.c

@@ -38,7 +38,8 @@ double cz_staged_stroke(const CzStaged *staged) {
 }
 
 /* Strokes of a curve's breakpoints and of both its ends, each once, rising. */
-static int bends_of(const CzBreakpoints *breakpoints, double stroke, double at[CZ_MOST_BENDS]) {
+static int bends_of(const CzBreakpoints *breakpoints, double stroke,
+                    double at[CZ_MOST_STAGED_BREAKPOINTS]) {
     int n = 0;
     at[n++] = 0.0;
     at[n++] = stroke;
@@ -57,14 +58,14 @@ static int bends_of(const CzBreakpoints *breakpoints, double stroke, double at[C
     return n;
 }
 
-int cz_staged_bends(const CzStaged *staged, double at[CZ_MOST_BENDS]) {
+int cz_staged_breakpoint_strokes(const CzStaged *staged, double at[CZ_MOST_STAGED_BREAKPOINTS]) {
     CzBreakpoints breakpoints;
     cz_staged_breakpoints(staged, &breakpoints);
     return bends_of(&breakpoints, cz_staged_stroke(staged), at);
 }
 
 double cz_staged_energy(const CzStaged *staged) {
-    double at[CZ_MOST_BENDS], energy = 0.0;
+    double at[CZ_MOST_STAGED_BREAKPOINTS], energy = 0.0;
     CzBreakpoints breakpoints;
     cz_staged_breakpoints(staged, &breakpoints);
     const int n = bends_of(&breakpoints, cz_staged_stroke(staged), at);
@@ -80,9 +81,9 @@ double cz_staged_energy(const CzStaged *staged) {
 /* Values of the fixed part and of every phi at the breakpoints. */
 typedef struct Terms {
     int n_bend, n_term;
-    double at[CZ_MOST_BENDS];
-    double fixed[CZ_MOST_BENDS];
-    double phi[MOST_TERMS][CZ_MOST_BENDS];
+    double at[CZ_MOST_STAGED_BREAKPOINTS];
+    double fixed[CZ_MOST_STAGED_BREAKPOINTS];
+    double phi[MOST_TERMS][CZ_MOST_STAGED_BREAKPOINTS];
 } Terms;
 
 static void put_values(const Terms *terms, const CzBreakpoints *breakpoints, double *value) {
@@ -175,7 +176,7 @@ static bool eliminate(Equations *equations) {
 /* Stores the solution in the stages and returns the integral of the squared difference. */
 static double store_forces(CzStaged *staged, const Terms *terms, const CzBranchSums *sums,
                            const double *force) {
-    double value[CZ_MOST_BENDS];
+    double value[CZ_MOST_STAGED_BREAKPOINTS];
     for (int k = 0; k < terms->n_bend; k++)
         value[k] = terms->fixed[k];
     for (int i = 0; i < terms->n_term; i++) {
@@ -278,8 +279,8 @@ static bool solve_bounded(Problem *problem) {
 
 double cz_staged_solve(CzStaged *staged, const CzBranch *branch, double energy) {
     Terms terms;
-    CzBranchSums sums[CZ_MOST_BENDS];
-    double one[CZ_MOST_BENDS];
+    CzBranchSums sums[CZ_MOST_STAGED_BREAKPOINTS];
+    double one[CZ_MOST_STAGED_BREAKPOINTS];
     make_terms(staged, &terms);
     for (int i = 0; i < terms.n_bend; i++) {
         sums[i] = cz_branch_sums(branch, terms.at[i]);
@@ -393,6 +394,6 @@ double cz_staged_refine(CzStaged *staged, const CzBranch *branch, double energy,
     return cz_staged_solve(staged, branch, energy);
 }
 
-double cz_staged_nothing(const CzBranch *branch) {
+double cz_staged_rounding(const CzBranch *branch) {
     return ROUNDING * branch->squares[branch->n - 1];
 }

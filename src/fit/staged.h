@@ -43,8 +43,8 @@ double cz_staged_stroke(const CzStaged *staged);
 double cz_staged_energy(const CzStaged *staged);
 
 /* Strokes of the curve's breakpoints, from 0 to its end, rising; returns how many. */
-enum { CZ_MOST_BENDS = 2 * CZ_MAX_STAGES + 4 };
-int cz_staged_bends(const CzStaged *staged, double at[CZ_MOST_BENDS]);
+enum { CZ_MOST_STAGED_BREAKPOINTS = 2 * CZ_MAX_STAGES + 4 };
+int cz_staged_breakpoint_strokes(const CzStaged *staged, double at[CZ_MOST_STAGED_BREAKPOINTS]);
 
 /* Finds the forces for given strokes, none below a thousandth of the mean force; without the
  * condition when `energy` is NaN. Returns the integral of the squared difference, INFINITY when no
@@ -56,6 +56,6 @@ double cz_staged_solve(CzStaged *staged, const CzBranch *branch, double energy);
 double cz_staged_refine(CzStaged *staged, const CzBranch *branch, double energy, double shortest);
 
 /* Integral of the squared difference that counts as zero because of rounding. */
-double cz_staged_nothing(const CzBranch *branch);
+double cz_staged_rounding(const CzBranch *branch);
 
 #endif

@@ -58,7 +58,7 @@ CzStop cz_fit_find_stop(const CzFit *fit) {
 double cz_fit_stiffness_for(CzFit *fit, const CzStop *stop, double stiffness) {
     if (!stop->is_there || stiffness >= STIFFER * stop->stiffness)
         return stiffness;
-    cz_fit_note_down(
+    cz_fit_add_note(
         fit,
         "the elastic rise is too soft for the stop: `stiffness` is set to twice that of the stop");
     return cz_fit_round(RAISED * stop->stiffness, 1e6);
@@ -97,8 +97,8 @@ CzStatus cz_fit_place_stop(CzFit *fit, const CzStop *stop, CzStaged *staged, CzB
     staged->bottom_stiffness = cz_fit_round(fmin(fmax(1.0 / soft, key->lo), key->hi), 1e6);
     fit->stop_force = force;
     char at[CZ_NUMBER_TEXT];
-    cz_fit_note_down(fit, "the stop begins at %s mm; its stiffness is that of the curve",
-                     cz_number_print_short(at, 1e3 * (end - length)));
+    cz_fit_add_note(fit, "the stop begins at %s mm; its stiffness is that of the curve",
+                    cz_number_print_short(at, 1e3 * (end - length)));
     return extend(&fit->arena, cz_staged_stroke(staged), plateau, part)
                ? CZ_OK
                : cz_no_memory(error, "a fit");

@@ -234,7 +234,7 @@ static int drops_of(sunrealtype time, N_Vector state, sunrealtype *value, void *
     return 0;
 }
 
-static CzStatus tell(const CzSolver *solver, int flag, CzError *error) {
+static CzStatus status_of_flag(const CzSolver *solver, int flag, CzError *error) {
     if (flag == ARK_MEM_FAIL || flag == CV_MEM_FAIL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the second solver");
     return cz_fail(error, CZ_STATUS_RUN_FAILED, "the second solver failed at %.3f ms: %s",
@@ -364,7 +364,7 @@ CzStatus cz_solver_advance(CzSolver *solver, double until, CzSolverStep *step, C
         flag = is_erk ? ERKStepEvolve(memory, until, solver->state, &reached, ARK_ONE_STEP)
                       : CVode(memory, until, solver->state, &reached, CV_ONE_STEP);
     if (flag < 0 || solver->is_refused)
-        return tell(solver, flag, error);
+        return status_of_flag(solver, flag, error);
     solver->time = reached;
     *step = (CzSolverStep){.time = reached,
                            .state = N_VGetArrayPointer(solver->state),
@@ -379,7 +379,7 @@ CzStatus cz_solver_restart(CzSolver *solver, CzError *error) {
                       : CVodeReInit(memory, solver->time, solver->state);
     flag |= is_erk ? ERKStepSetInitStep(memory, solver->first_step)
                    : CVodeSetInitStep(memory, solver->first_step);
-    return flag == 0 ? CZ_OK : tell(solver, flag, error);
+    return flag == 0 ? CZ_OK : status_of_flag(solver, flag, error);
 }
 
 /* ---- equations ------------------------------------------------------------------------------- */

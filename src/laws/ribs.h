@@ -40,7 +40,7 @@ typedef struct {
 #define CZ_READY_FORCE 1e5
 
 /* Nearest whole number, halves to the even one: the sum has no bits for a fraction. */
-static inline double cz_nearest_whole(double value) {
+static inline double cz_nearest_integer(double value) {
     const double no_fraction = 6755399441055744.0; /* 1.5 x 2^52 */
     return (value + no_fraction) - no_fraction;
 }
@@ -50,7 +50,7 @@ static inline double cz_nearest_whole(double value) {
 static inline CzRibsResponse cz_ribs(const CzRibsLaw *law, double slip, double closure,
                                      double normal, double sheared) {
     const double pitches = slip / law->pitch;
-    const double off = fabs(pitches - cz_nearest_whole(pitches));
+    const double off = fabs(pitches - cz_nearest_integer(pitches));
     const double left = cz_clamp(1.0 - 2.0 * sheared / law->pitch, 0.0, 1.0);
     const double remaining = cz_clamp((law->overlap - fabs(slip)) / law->overlap, 0.0, 1.0);
     CzRibsResponse response;

@@ -298,11 +298,11 @@ static void close_challenge(void *study) {
     free(opened);
 }
 
-const CzStudyKind cz_study_of_a_challenge = {open_challenge, answer_task, close_challenge};
+const CzStudyKind cz_study_of_challenge = {open_challenge, answer_task, close_challenge};
 
 CzStudy cz_challenge_study(const CzChallenge *challenge, CzExecutor executor) {
     return (CzStudy){.executor = executor,
-                     .kind = CZ_STUDY_OF_A_CHALLENGE,
+                     .kind = CZ_STUDY_OF_CHALLENGE,
                      .describe = describe,
                      .data = challenge};
 }

@@ -143,8 +143,8 @@ CzStatus cz_full_run(CzFullRun *run, CzError *error) {
     if (status != CZ_OK && error != NULL)
         *error = mistake;
     CZ_TRY(status);
-    CZ_TRY(cz_evaluator_again(run->bench.evaluator, &run->bench.evaluator->manner,
-                              challenge->parts->x, &evaluation, error));
+    CZ_TRY(cz_evaluator_repeat(run->bench.evaluator, &run->bench.evaluator->manner,
+                               challenge->parts->x, &evaluation, error));
     run->result = malloc(((size_t)challenge->n_check + 1) * sizeof *run->result);
     status = run->result != NULL ? cz_challenge_judge(challenge, &run->bench, &evaluation, 0,
                                                       run->result, &run->judged, error)

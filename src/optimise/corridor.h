@@ -47,8 +47,8 @@ CZ_MUST_CHECK CzStatus cz_corridor_run(CzCorridor *corridor, int n, CzTriedCurve
                                        CzError *error);
 /* The same with at most CZ_CURVES_AT_ONCE curves in this thread. */
 enum { CZ_CURVES_AT_ONCE = 4 };
-CZ_MUST_CHECK CzStatus cz_corridor_run_here(CzCorridor *corridor, int n, CzTriedCurve *curve,
-                                            CzError *error);
+CZ_MUST_CHECK CzStatus cz_corridor_run_in_thread(CzCorridor *corridor, int n, CzTriedCurve *curve,
+                                                 CzError *error);
 
 static inline bool cz_curve_passes(const CzTriedCurve *curve) {
     return curve->state == CZ_SAMPLE_DONE && cz_verdict_passes(curve->verdict);

@@ -34,7 +34,7 @@ static CzStatus evaluate(void *data, int n_point, const double *factor, double *
         *curve = (CzTriedCurve){
             .shape = CZ_CURVE_ADVERSARY, .number = own->n + 1, .sample = own->start->sample};
         memcpy(curve->factor, factor + k * n_factor, (size_t)n_factor * sizeof *factor);
-        CZ_TRY(cz_corridor_run_here(own->corridor, 1, curve, error));
+        CZ_TRY(cz_corridor_run_in_thread(own->corridor, 1, curve, error));
         own->n++;
         objective[k] = curve->state == CZ_SAMPLE_DONE ? curve->margin : NAN;
     }

@@ -90,7 +90,7 @@ static CzStatus run_bench(CzCorridor *corridor, const CzCaseBench *bench, int n,
     CzEvaluation evaluation = {0};
     cz_evaluator_set_stop(bench->evaluator, corridor->parts->options.stop);
     CzStatus status =
-        cz_evaluator_again(bench->evaluator, &bench->evaluator->manner, NULL, &evaluation, error);
+        cz_evaluator_repeat(bench->evaluator, &bench->evaluator->manner, NULL, &evaluation, error);
     CzCheckResult *own = malloc(((size_t)evaluation.n_check + 1) * sizeof *own);
     if (own == NULL && status == CZ_OK)
         status = cz_no_memory(error, "the results of a curve");
@@ -130,7 +130,8 @@ static void refuse(CzTriedCurve *curve, const CzError *mistake) {
 }
 
 /* When the reader refuses one of several curves, each of them is read by itself. */
-CzStatus cz_corridor_run_here(CzCorridor *corridor, int n, CzTriedCurve *curve, CzError *error) {
+CzStatus cz_corridor_run_in_thread(CzCorridor *corridor, int n, CzTriedCurve *curve,
+                                   CzError *error) {
     const CzCorridorParts *parts = corridor->parts;
     const CzCases *cases = curve[0].sample >= 0 ? &parts->with_scatter : &parts->bare;
     CzCaseBench bench;
@@ -151,7 +152,7 @@ CzStatus cz_corridor_run_here(CzCorridor *corridor, int n, CzTriedCurve *curve, 
     } else if (status == CZ_STATUS_INPUT) {
         status = CZ_OK;
         for (int k = 0; k < n && status == CZ_OK; k++)
-            status = cz_corridor_run_here(corridor, 1, &curve[k], error);
+            status = cz_corridor_run_in_thread(corridor, 1, &curve[k], error);
     } else if (error != NULL) {
         *error = mistake;
     }
@@ -169,9 +170,9 @@ typedef struct Batch {
 static CzStatus run_task(int index, void *data, CzError *error) {
     const Batch *batch = data;
     const int first = index * CZ_CURVES_AT_ONCE, left = batch->n - first;
-    return cz_corridor_run_here(batch->corridor,
-                                left < CZ_CURVES_AT_ONCE ? left : CZ_CURVES_AT_ONCE,
-                                batch->curve + first, error);
+    return cz_corridor_run_in_thread(batch->corridor,
+                                     left < CZ_CURVES_AT_ONCE ? left : CZ_CURVES_AT_ONCE,
+                                     batch->curve + first, error);
 }
 
 CzStatus cz_corridor_run(CzCorridor *corridor, int n, CzTriedCurve *curve, CzError *error) {

@@ -270,8 +270,8 @@ static CzStatus fill_outcome(CzEvaluator *evaluator, CzCombinations *combination
 
 /* ---- the search ------------------------------------------------------------------------------ */
 
-CzStatus cz_optimise_settle(const CzEvaluator *evaluator, CzOptimiseOptions *options,
-                            CzError *error) {
+CzStatus cz_optimise_fill_defaults(const CzEvaluator *evaluator, CzOptimiseOptions *options,
+                                   CzError *error) {
     const CzOptimise *written = &cz_problem_input(cz_evaluator_problem(evaluator))->optimise;
     if (cz_evaluator_n_variable(evaluator) == 0)
         return cz_fail(
@@ -298,7 +298,7 @@ CzStatus cz_optimise_settle(const CzEvaluator *evaluator, CzOptimiseOptions *opt
 CzStatus cz_optimise_check(const CzEvaluator *evaluator, const CzOptimiseOptions *options,
                            CzError *error) {
     CzOptimiseOptions settled = options != NULL ? *options : cz_optimise_options_default();
-    return cz_optimise_settle(evaluator, &settled, error);
+    return cz_optimise_fill_defaults(evaluator, &settled, error);
 }
 
 CzStatus cz_optimise(CzEvaluator *evaluator, const CzOptimiseOptions *given, CzOutcome **outcome,
@@ -307,7 +307,7 @@ CzStatus cz_optimise(CzEvaluator *evaluator, const CzOptimiseOptions *given, CzO
     CzOptimiseOptions options = given != NULL ? *given : cz_optimise_options_default();
     CzCombinations combinations;
     *outcome = NULL;
-    CZ_TRY(cz_optimise_settle(evaluator, &options, error));
+    CZ_TRY(cz_optimise_fill_defaults(evaluator, &options, error));
     cz_evaluator_set_stop(evaluator, options.stop);
     CzStatus status = cz_combinations(evaluator, &options, &combinations, error);
     cz_evaluator_set_stop(evaluator, NULL); /* the best design is evaluated in any case */

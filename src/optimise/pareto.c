@@ -171,7 +171,7 @@ static void count(const CzProgress *progress, void *data) {
 
 /* The part of the journal that belongs to the next search. */
 static CzJournal rest_of_journal(const Front *front) {
-    CzJournal rest = cz_journal_rest(front->options->search.journal, front->n_answered);
+    CzJournal rest = cz_journal_remaining(front->options->search.journal, front->n_answered);
     rest.n_earlier = 0;
     return rest;
 }

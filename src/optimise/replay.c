@@ -159,8 +159,8 @@ CzStatus cz_replay_complete(CzReplay *replay, CzBatch *batch, int design, CzErro
         CzEvaluation *evaluation = &batch->evaluation[i];
         if (batch->run[i] != design)
             continue;
-        CZ_TRY(cz_evaluator_search_rest(replay->evaluator, replay->selection.works, at.x,
-                                        evaluation, (double *)at.detail, error));
+        CZ_TRY(cz_evaluator_search_remaining(replay->evaluator, replay->selection.works, at.x,
+                                             evaluation, (double *)at.detail, error));
         batch->objective[design] = evaluation->objective;
         memcpy((double *)at.constraint, evaluation->constraint,
                (size_t)at.n_constraint * sizeof *at.constraint);

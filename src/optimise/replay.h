@@ -79,7 +79,7 @@ CZ_MUST_CHECK CzStatus cz_replay_keep(CzReplay *replay, const char *phase, const
                                       CzError *error);
 
 /* A journal without its first n answers, for the next of several searches. */
-static inline CzJournal cz_journal_rest(const CzJournal *journal, long n) {
+static inline CzJournal cz_journal_remaining(const CzJournal *journal, long n) {
     CzJournal rest = *journal;
     const long n_used = n < journal->n_answer ? n : journal->n_answer;
     rest.answer = n_used > 0 ? journal->answer + n_used : journal->answer;

@@ -133,7 +133,7 @@ static CzStatus search(Robust *robust, CzRobustRound *round, CzError *error) {
     CzCombinations combinations;
     CzJournal journal;
     if (options.journal != NULL) {
-        journal = cz_journal_rest(options.journal, robust->n_answered);
+        journal = cz_journal_remaining(options.journal, robust->n_answered);
         journal.n_earlier = robust->n_trial == 0 ? journal.n_earlier : 0;
         options.journal = &journal;
     }
@@ -435,7 +435,7 @@ static CzStatus fill_outcome(Robust *robust, CzError *error) {
 static CzStatus run(Robust *robust, CzError *error) {
     bool goes_on = true;
     CZ_TRY(cz_evaluator_build(robust->problem, robust->evaluator_options, &robust->plain, error));
-    CZ_TRY(cz_optimise_settle(robust->plain, &robust->options, error));
+    CZ_TRY(cz_optimise_fill_defaults(robust->plain, &robust->options, error));
     robust->n_variable = cz_evaluator_n_variable(robust->plain);
     const size_t n = (size_t)robust->n_variable;
     robust->x = calloc(2 * n, sizeof *robust->x);

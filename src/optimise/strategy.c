@@ -275,7 +275,7 @@ static bool hold_margins(CzSurface *surface) {
         if (!has_planes)
             return false;
     }
-    return cz_surface_hold(surface);
+    return cz_surface_hold_capped(surface);
 }
 
 /* Descents from several designs; then the best one is refined, on the increments by `cz_strategy`.

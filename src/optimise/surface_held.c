@@ -51,7 +51,7 @@ static void freeze_variables_of(CzSurface *surface, int k) {
         }
 }
 
-bool cz_surface_hold(CzSurface *surface) {
+bool cz_surface_hold_capped(CzSurface *surface) {
     bool is_free = false;
     const int before = surface->n_held;
     for (int k; is_capped(surface, k = find_largest(surface)); surface->n_held++) {

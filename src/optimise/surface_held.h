@@ -14,6 +14,6 @@ bool cz_surface_is_capped(const CzSurface *surface);
 
 /* Holds the largest detail that counts, and the next ones, as long as they are capped at the base.
  * Returns whether any is, while other details count and other variables are free. */
-bool cz_surface_hold(CzSurface *surface);
+bool cz_surface_hold_capped(CzSurface *surface);
 
 #endif

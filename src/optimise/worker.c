@@ -11,7 +11,7 @@ static const CzStudyKind *const kinds[CZ_N_STUDY_KIND] = {
     [CZ_STUDY_OF_RUNS] = &cz_study_of_runs,
     [CZ_STUDY_OF_SAMPLES] = &cz_study_of_samples,
     [CZ_STUDY_OF_POINTS] = &cz_study_of_points,
-    [CZ_STUDY_OF_A_CHALLENGE] = &cz_study_of_a_challenge};
+    [CZ_STUDY_OF_CHALLENGE] = &cz_study_of_challenge};
 
 /* A study that was opened. */
 typedef struct Known {
@@ -76,7 +76,7 @@ static void open_study(CzWorker *worker, uint64_t name, CzReading *reading) {
                                         : cz_no_memory(&known->error, "a study");
 }
 
-void cz_worker_learn(CzWorker *worker, const CzBytes *message) {
+void cz_worker_receive(CzWorker *worker, const CzBytes *message) {
     CzReading reading = {.next = message->byte, .n_left = message->n};
     uint64_t name;
     cz_get(&reading, &name, 1, sizeof name);

@@ -198,7 +198,7 @@ static bool bind_choice(CzValue value, const CzWordSet *set, int *choice) {
     char words[160] = "";
     size_t n = 0;
     CzSuggestion suggestion = {0};
-    if (!cz_value_is_there(value))
+    if (!cz_value_exists(value))
         return false;
     for (int i = 0; i < set->n_word; i++) {
         const char *before = i == 0 ? "" : i + 1 < set->n_word ? ", " : " or ";

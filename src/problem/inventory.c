@@ -228,7 +228,7 @@ static size_t largest_record(void) {
 
 static CzPartInfo describe(CzProblem *problem, const CzPart *part, void *memory) {
     CzPartInfo info = {.name = part->name,
-                       .file = cz_problem_told_name(problem, part->written->source->name),
+                       .file = cz_problem_reported_name(problem, part->written->source->name),
                        .length = NAN};
     const CzRecordId type = read_part(problem, part, memory);
     const Load load = type != CZ_N_RECORD ? load_of(type, memory) : no_load;

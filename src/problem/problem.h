@@ -42,7 +42,7 @@ const struct CzSource *cz_problem_first_source(const CzProblem *problem);
 
 /* Name of a file as results report it: an absolute path is given relative to the problem file or
  * the share folder, so that results do not depend on the folder of installation. Borrowed. */
-const char *cz_problem_told_name(const CzProblem *problem, const char *name);
+const char *cz_problem_reported_name(const CzProblem *problem, const char *name);
 
 /* Fills file, line, column of the place where a field of the input was written (the innermost
  * record when the field itself was not), and the status CZ_STATUS_INPUT. `field` is an address
@@ -235,7 +235,7 @@ const struct CzSource *cz_problem_measured_file(const CzProblem *problem, int nu
 
 /* cz_problem_write_resolved for a result folder: it names the copies of the time histories there.
  */
-void cz_problem_write_resolved_there(const CzProblem *problem, FILE *stream);
+void cz_problem_write_resolved_in_folder(const CzProblem *problem, FILE *stream);
 
 /* The profile of the problem: NAME.yaml in profiles/ beside the problem file, then in the share
  * folder. It has the limits and scenarios of the problem's category. Borrowed; NULL for none. */
@@ -258,6 +258,6 @@ typedef struct CzAskedScenario {
 } CzAskedScenario;
 
 /* The scenarios of the problem's profile: those of the category, then those that do not apply. */
-const CzAskedScenario *cz_problem_asked(const CzProblem *problem, int *n_asked);
+const CzAskedScenario *cz_problem_profile_scenarios(const CzProblem *problem, int *n_asked);
 
 #endif

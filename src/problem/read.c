@@ -229,7 +229,7 @@ static const char *path_in(const char *folder, const char *path) {
     return n > 0 && strncmp(path, folder, n) == 0 && path[n] == '/' ? path + n + 1 : NULL;
 }
 
-const char *cz_problem_told_name(const CzProblem *problem, const char *name) {
+const char *cz_problem_reported_name(const CzProblem *problem, const char *name) {
     const CzSource *first = problem->reader.sources.first;
     if (name[0] != '/')
         return name;
@@ -271,7 +271,7 @@ const CzProfile *cz_problem_profile(const CzProblem *problem) {
     return problem->profile.given ? &problem->profile : NULL;
 }
 
-const CzAskedScenario *cz_problem_asked(const CzProblem *problem, int *n_asked) {
+const CzAskedScenario *cz_problem_profile_scenarios(const CzProblem *problem, int *n_asked) {
     *n_asked = problem->n_asked;
     return problem->asked;
 }

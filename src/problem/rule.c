@@ -24,8 +24,8 @@ static const CzPlace *find_place(const CzRules *rules, const void *field) {
     return cz_places_find(&rules->problem->places, own);
 }
 
-static void tell(const CzRules *rules, CzMistakes *mistakes, const void *field, const char *format,
-                 va_list arguments) {
+static void list_mistake(const CzRules *rules, CzMistakes *mistakes, const void *field,
+                         const char *format, va_list arguments) {
     const CzPlace *place = find_place(rules, field);
     if (place == NULL || mistakes == NULL)
         return;
@@ -37,14 +37,14 @@ static void tell(const CzRules *rules, CzMistakes *mistakes, const void *field, 
 void cz_rule_broken(const CzRules *rules, const void *field, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    tell(rules, rules->mistakes, field, format, arguments);
+    list_mistake(rules, rules->mistakes, field, format, arguments);
     va_end(arguments);
 }
 
 void cz_rule_warning(const CzRules *rules, const void *field, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    tell(rules, rules->warnings, field, format, arguments);
+    list_mistake(rules, rules->warnings, field, format, arguments);
     va_end(arguments);
 }
 
@@ -53,7 +53,7 @@ void cz_rule_absent(const CzRules *rules, const void *field, const char *format,
     if (rules->reader->has_holes)
         return;
     va_start(arguments, format);
-    tell(rules, rules->mistakes, field, format, arguments);
+    list_mistake(rules, rules->mistakes, field, format, arguments);
     va_end(arguments);
 }
 

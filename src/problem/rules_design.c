@@ -116,7 +116,7 @@ static int find(const CzRules *rules, const char *path, CzTargets *targets, CzEr
 }
 
 /* Reports why a path names nothing, or a choice cannot be made. */
-static void tell_error(const CzRules *rules, const void *field, const char *before,
+static void list_error(const CzRules *rules, const void *field, const char *before,
                        const CzError *error) {
     cz_rule_broken(rules, field, "%s%s" CZ_HELP "%s", before, error->message, error->help);
 }
@@ -126,7 +126,7 @@ static void check_path(const CzRules *rules, const CzVariable *variable, const c
     CzError error = {0};
     const int n_found = find(rules, *path, targets, &error);
     if (error.status == CZ_STATUS_INPUT)
-        tell_error(rules, path, "", &error);
+        list_error(rules, path, "", &error);
     for (int i = targets->n - n_found; i < targets->n; i++)
         if (i == targets->n - n_found || targets->target[i].match != targets->target[i - 1].match)
             check_target(rules, variable, path, &targets->target[i], targets->target);
@@ -237,7 +237,7 @@ static void check_each_choice(const CzRules *rules, const CzVariable *variable,
         char choice[80];
         snprintf(choice, sizeof choice, "choice '%.60s': ", variable->choices.text[i]);
         if (status == CZ_STATUS_INPUT)
-            tell_error(rules, &variable->choices.text[i], choice, &error);
+            list_error(rules, &variable->choices.text[i], choice, &error);
     }
 }
 

@@ -34,7 +34,8 @@ static void write_origin(const Writer *writer, const CzKey *key, const void *fie
         return;
     }
     fprintf(writer->stream, "%s:%d",
-            cz_problem_told_name(writer->problem, place->node->source->name), place->node->line);
+            cz_problem_reported_name(writer->problem, place->node->source->name),
+            place->node->line);
     if (place->unit != NULL && place->unit->si != 1)
         fprintf(writer->stream, ", %s: %s", place->node->text, place->value->text);
     for (const CzTrail *trail = place->trail; trail != NULL && trail->part != NULL;
@@ -459,10 +460,10 @@ static void write_resolved(const CzProblem *problem, bool is_there, FILE *stream
         stream,
         "# %s" CZ_RESOLVED_MARK ", values in SI.\n"
         "# The comment behind each value gives its place in the input, or marks it as a default.\n",
-        cz_problem_told_name(problem, problem->file));
+        cz_problem_reported_name(problem, problem->file));
     for (const CzSource *source = problem->reader.sources.first; source != NULL;
          source = source->next)
-        fprintf(stream, "# read: %s\n", cz_problem_told_name(problem, source->name));
+        fprintf(stream, "# read: %s\n", cz_problem_reported_name(problem, source->name));
     write_record(&writer, &cz_records[CZ_RECORD_CzInput], (const char *)&problem->input, 0, "");
 }
 
@@ -470,6 +471,6 @@ void cz_problem_write_resolved(const CzProblem *problem, FILE *stream) {
     write_resolved(problem, false, stream);
 }
 
-void cz_problem_write_resolved_there(const CzProblem *problem, FILE *stream) {
+void cz_problem_write_resolved_in_folder(const CzProblem *problem, FILE *stream) {
     write_resolved(problem, true, stream);
 }

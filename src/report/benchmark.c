@@ -29,11 +29,11 @@ static void put_scenario(CzReportTable *table, const CzScenarioTimes *times) {
 void cz_benchmark_write_table(const CzReport *report, CzTerminal *terminal) {
     const CzBenchmark *benchmark = report->benchmark;
     CzReportTable table;
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(report->problem));
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(report->problem));
     cz_table_begin(&table, "scenario;>vehicles;>steps;processor time;>min ms;>median ms;>n");
     for (int i = 0; i < benchmark->n_scenario; i++)
         put_scenario(&table, &benchmark->scenario[i]);
     cz_table_write_text(&table, terminal);
     if (benchmark->failure[0] != '\0')
-        cz_terminal_say(terminal, CZ_STYLE_BAD, "%s\n", benchmark->failure);
+        cz_terminal_print(terminal, CZ_STYLE_BAD, "%s\n", benchmark->failure);
 }

@@ -24,7 +24,7 @@ bool cz_challenge_has_files(const CzReport *report) {
 
 static void write_reason(const CzChallenge *challenge, int weak, FILE *stream) {
     char text[CZ_CHALLENGE_SENTENCE];
-    cz_challenge_say_weak(challenge, weak, text);
+    cz_challenge_weak_sentence(challenge, weak, text);
     char name[CZ_NAME_ROOM];
     cz_weak_point_name(challenge, weak, name);
     fprintf(stream, "#   %s: %s\n", name, text);

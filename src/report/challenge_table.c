@@ -32,8 +32,8 @@ static void add_value(char text[CZ_CHALLENGE_SENTENCE], const CzDraw *draw, doub
         cz_figure_digits(number, 4, shown), unit[0] != '\0' ? " " : "", unit);
 }
 
-void cz_challenge_say_values(const CzChallenge *challenge, int point,
-                             char text[CZ_CHALLENGE_SENTENCE]) {
+void cz_challenge_values_sentence(const CzChallenge *challenge, int point,
+                                  char text[CZ_CHALLENGE_SENTENCE]) {
     text[0] = '\0';
     for (int d = 0; d < challenge->n_draw; d++) {
         add(text, "%s", d > 0 ? "; " : "");
@@ -56,13 +56,13 @@ static void add_weak(char text[CZ_CHALLENGE_SENTENCE], const CzWeakPoint *weak) 
         add(text, "; %s", weak->message);
 }
 
-void cz_challenge_say_weak(const CzChallenge *challenge, int weak,
-                           char text[CZ_CHALLENGE_SENTENCE]) {
+void cz_challenge_weak_sentence(const CzChallenge *challenge, int weak,
+                                char text[CZ_CHALLENGE_SENTENCE]) {
     text[0] = '\0';
     add_weak(text, &challenge->weak[weak]);
 }
 
-void cz_challenge_say_how(const CzChallenge *challenge, char text[CZ_CHALLENGE_SENTENCE]) {
+void cz_challenge_method_sentence(const CzChallenge *challenge, char text[CZ_CHALLENGE_SENTENCE]) {
     text[0] = '\0';
     add(text,
         "%d runs of at most %d, each of %d scenario%s; %d number%s, %d of the envelope; seed %ld",
@@ -79,7 +79,7 @@ static int weakest(const CzChallenge *challenge) {
     return 0;
 }
 
-void cz_challenge_say_outcome(const CzChallenge *challenge, char text[CZ_CHALLENGE_SENTENCE]) {
+void cz_challenge_outcome_sentence(const CzChallenge *challenge, char text[CZ_CHALLENGE_SENTENCE]) {
     text[0] = '\0';
     if (challenge->n_weak == 0) {
         add(text, "%d runs found no point with a margin", challenge->n_point);
@@ -92,7 +92,7 @@ void cz_challenge_say_outcome(const CzChallenge *challenge, char text[CZ_CHALLEN
     else
         add(text, "%d runs could not break it; smallest margin: ", challenge->n_point);
     add_weak(text, &challenge->weak[least]);
-    cz_challenge_say_values(challenge, challenge->weak[least].point, values);
+    cz_challenge_values_sentence(challenge, challenge->weak[least].point, values);
     add(text, ", at %.2000s", values);
 }
 
@@ -120,7 +120,7 @@ static void put_weak(CzReportTable *table, const CzChallenge *challenge, int i, 
     cz_table_put(table, cz_figure_margin(text, check->margin));
     cz_table_put(table, cz_figure_digits(text, 9, weak->n_fail));
     if (on_page) {
-        cz_challenge_say_values(challenge, weak->point, values);
+        cz_challenge_values_sentence(challenge, weak->point, values);
         cz_table_put(table, cz_figure_digits(text, 9, weak->point + 1));
         cz_table_put(table, values);
     }
@@ -144,9 +144,9 @@ void cz_challenge_write_table(const CzReport *report, CzTerminal *terminal) {
     const CzChallenge *challenge = report->challenge;
     CzReportTable table;
     char text[CZ_CHALLENGE_SENTENCE];
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n", cz_problem_title(challenge->problem));
-    cz_challenge_say_how(challenge, text);
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n\n", text);
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s\n", cz_problem_title(challenge->problem));
+    cz_challenge_method_sentence(challenge, text);
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s\n\n", text);
     if (challenge->n_draw <= MOST_DRAWS) {
         cz_sample_begin_draws(&table, CZ_DRAW_HEADS("number"), challenge->n_draw, challenge->draw);
         cz_table_write_text(&table, terminal);
@@ -156,19 +156,19 @@ void cz_challenge_write_table(const CzReport *report, CzTerminal *terminal) {
     cz_table_write_text(&table, terminal);
     fputc('\n', terminal->stream);
     for (int i = 0; i < challenge->n_weak; i++) {
-        cz_challenge_say_values(challenge, challenge->weak[i].point, text);
+        cz_challenge_values_sentence(challenge, challenge->weak[i].point, text);
         const char *message = challenge->weak[i].message;
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%d at %s%s%s\n", i + 1, text,
-                        message != NULL ? "; " : "", message != NULL ? message : "");
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%d at %s%s%s\n", i + 1, text,
+                          message != NULL ? "; " : "", message != NULL ? message : "");
     }
-    cz_challenge_say_outcome(challenge, text);
+    cz_challenge_outcome_sentence(challenge, text);
     fputc('\n', terminal->stream);
-    cz_terminal_say(terminal, challenge->is_broken ? CZ_STYLE_BAD : CZ_STYLE_GOOD, "%s.\n", text);
+    cz_terminal_print(terminal, challenge->is_broken ? CZ_STYLE_BAD : CZ_STYLE_GOOD, "%s.\n", text);
     if (challenge->n_failed > 0)
-        cz_terminal_say(terminal, CZ_STYLE_BAD,
-                        "%d of the runs gave no result, and count as failing.\n",
-                        challenge->n_failed);
-    cz_screening_say_of(challenge->problem, terminal);
+        cz_terminal_print(terminal, CZ_STYLE_BAD,
+                          "%d of the runs gave no result, and count as failing.\n",
+                          challenge->n_failed);
+    cz_screening_print(challenge->problem, terminal);
     if (challenge->is_interrupted)
-        cz_terminal_say(terminal, CZ_STYLE_BAD, "INTERRUPTED: runs are missing.\n");
+        cz_terminal_print(terminal, CZ_STYLE_BAD, "INTERRUPTED: runs are missing.\n");
 }

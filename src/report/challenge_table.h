@@ -9,12 +9,12 @@ enum { CZ_CHALLENGE_SENTENCE = 4000 };
 
 /* Sentences without their full stop: the outcome; what was varied; a weak point with its check and
  * margin; the values of a point. */
-void cz_challenge_say_outcome(const CzChallenge *challenge, char text[CZ_CHALLENGE_SENTENCE]);
-void cz_challenge_say_how(const CzChallenge *challenge, char text[CZ_CHALLENGE_SENTENCE]);
-void cz_challenge_say_weak(const CzChallenge *challenge, int weak,
-                           char text[CZ_CHALLENGE_SENTENCE]);
-void cz_challenge_say_values(const CzChallenge *challenge, int point,
-                             char text[CZ_CHALLENGE_SENTENCE]);
+void cz_challenge_outcome_sentence(const CzChallenge *challenge, char text[CZ_CHALLENGE_SENTENCE]);
+void cz_challenge_method_sentence(const CzChallenge *challenge, char text[CZ_CHALLENGE_SENTENCE]);
+void cz_challenge_weak_sentence(const CzChallenge *challenge, int weak,
+                                char text[CZ_CHALLENGE_SENTENCE]);
+void cz_challenge_values_sentence(const CzChallenge *challenge, int point,
+                                  char text[CZ_CHALLENGE_SENTENCE]);
 
 /* Table of weak points; with their values on a page. */
 void cz_challenge_begin_weak(CzReportTable *table, const CzChallenge *challenge, bool on_page);

@@ -102,7 +102,7 @@ static const char *or_empty(const char *text) {
 /* A margin to the right of the middle, a violation to the left. */
 static const CzBar margin_bar = {"bar", "margin", 30, 31, "#d0021b", "#009e73"};
 
-void cz_checks_when(const CzCheckResult *check, size_t room, char *text) {
+void cz_checks_time(const CzCheckResult *check, size_t room, char *text) {
     char from[CZ_FIGURE_ROOM], to[CZ_FIGURE_ROOM];
     text[0] = '\0';
     if (!isfinite(check->when[0]))
@@ -141,7 +141,7 @@ static void put_check(CzReportTable *table, const CzCheckResult *check, const Cz
     put_verdict(table, check);
     cz_table_put(table, check->where);
     cz_table_put(table, check->scenario);
-    cz_checks_when(check, sizeof text, text);
+    cz_checks_time(check, sizeof text, text);
     cz_table_put(table, text);
     cz_table_put(table, cz_checks_limit(text, check));
     cz_table_put_styled(table, before != NULL ? cz_checks_value(text, before) : "",
@@ -239,7 +239,7 @@ void cz_checks_write_rows(CzMarkup *markup, const CzEvaluation *evaluation,
 }
 
 static void write_verdict(CzTerminal *terminal, CzVerdict verdict) {
-    cz_terminal_say(terminal, cz_verdict_style(verdict), "%s", cz_verdict_word(verdict));
+    cz_terminal_print(terminal, cz_verdict_style(verdict), "%s", cz_verdict_word(verdict));
 }
 
 /* The last line of a table: "22 checks: 3 FAIL, 19 pass. Verdict: FAIL." */
@@ -266,21 +266,22 @@ static void write_count(const CzEvaluation *evaluation, CzTerminal *terminal) {
             cz_screening_remark(evaluation->verdict, evaluation->n_not_covered, remark));
 }
 
-static void say_scenarios_without_run(const CzEvaluation *evaluation, CzTerminal *terminal) {
+static void print_scenarios_without_run(const CzEvaluation *evaluation, CzTerminal *terminal) {
     for (int i = 0; i < evaluation->n_check; i++) {
         const int n = n_without_run(evaluation, i);
         if (n == 0)
             continue;
         write_verdict(terminal, CZ_VERDICT_NOT_CHECKED);
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, ": %d check%s of %s, %s.\n", n, n == 1 ? "" : "s",
-                        cz_checks_scenario(&evaluation->check[i]), evaluation->check[i].why);
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN, ": %d check%s of %s, %s.\n", n,
+                          n == 1 ? "" : "s", cz_checks_scenario(&evaluation->check[i]),
+                          evaluation->check[i].why);
     }
 }
 
 void cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *before,
                            CzTerminal *terminal) {
     if (evaluation->n_check == 0) {
-        cz_apart_say(evaluation, terminal);
+        cz_not_checked_print(evaluation, terminal);
         fputs("NO CHECKS. Add `checks:` to the problem file.\n", terminal->stream);
         return;
     }
@@ -294,7 +295,7 @@ void cz_checks_write_table(const CzEvaluation *evaluation, const CzEvaluation *b
             put_check(&table, check, with_before ? &before->check[i] : NULL, 0);
     }
     cz_table_write_text(&table, terminal);
-    say_scenarios_without_run(evaluation, terminal);
-    cz_apart_say(evaluation, terminal);
+    print_scenarios_without_run(evaluation, terminal);
+    cz_not_checked_print(evaluation, terminal);
     write_count(evaluation, terminal);
 }

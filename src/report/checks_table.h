@@ -25,7 +25,7 @@ const char *cz_checks_value(char text[CZ_CHECK_ROOM], const CzCheckResult *check
 const char *cz_checks_limit(char text[CZ_CHECK_ROOM], const CzCheckResult *check);
 
 /* Time at which the value was reached, or window of a mean [ms]; empty where it is not known. */
-void cz_checks_when(const CzCheckResult *check, size_t room, char *text);
+void cz_checks_time(const CzCheckResult *check, size_t room, char *text);
 
 /* The verdict in a table: "pass", "FAIL", "n/a". */
 const char *cz_checks_word(const CzCheckResult *check);

@@ -308,5 +308,5 @@ void cz_comparison_write_table(const CzReport *report, CzTerminal *terminal) {
                 "every one that differs.\n",
                 report->comparison->n_number, report->comparison->n_same_number);
     if (cz_compared_caution(report)[0] != '\0')
-        cz_terminal_say(terminal, CZ_STYLE_BAD, "%s\n", cz_compared_caution(report));
+        cz_terminal_print(terminal, CZ_STYLE_BAD, "%s\n", cz_compared_caution(report));
 }

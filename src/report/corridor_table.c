@@ -12,7 +12,7 @@
 /* ---- sentences ---- */
 
 /* Why a curve fails. */
-static void say_reason(const CzTriedCurve *curve, size_t room, char *text) {
+static void failure_reason(const CzTriedCurve *curve, size_t room, char *text) {
     char number[CZ_FIGURE_ROOM];
     if (curve->check[0] == '\0')
         snprintf(text, room, "%s", curve->message);
@@ -33,7 +33,7 @@ static const char *edge_percent(const CzCorridor *corridor, int edge,
     return text;
 }
 
-void cz_corridor_say_result(const CzCorridor *corridor, char text[CZ_CORRIDOR_SENTENCE]) {
+void cz_corridor_result_sentence(const CzCorridor *corridor, char text[CZ_CORRIDOR_SENTENCE]) {
     const CzTriedCurve *failure = cz_corridor_failure(corridor);
     char low[CZ_FIGURE_ROOM + 1], high[CZ_FIGURE_ROOM + 1], words[CZ_CURVE_WORDS], reason[400];
     const bool is_provisional =
@@ -48,14 +48,14 @@ void cz_corridor_say_result(const CzCorridor *corridor, char text[CZ_CORRIDOR_SE
     } else if (failure == NULL) {
         snprintf(text, CZ_CORRIDOR_SENTENCE, "No corridor yet");
     } else {
-        say_reason(failure, sizeof reason, reason);
+        failure_reason(failure, sizeof reason, reason);
         snprintf(text, CZ_CORRIDOR_SENTENCE, "NO CORRIDOR: the %s fails: %s%s",
                  cz_curve_words(failure, words), reason,
                  failure->sample >= 0 ? "; --no-scatter leaves the scatter out" : "");
     }
 }
 
-void cz_corridor_say_device(const CzCorridor *corridor, char text[CZ_CORRIDOR_SENTENCE]) {
+void cz_corridor_device_sentence(const CzCorridor *corridor, char text[CZ_CORRIDOR_SENTENCE]) {
     int n = snprintf(text, CZ_CORRIDOR_SENTENCE, "%s %s", corridor->what, corridor->path);
     if (corridor->count > 1)
         n += snprintf(text + n, (size_t)(CZ_CORRIDOR_SENTENCE - n), ", %d side by side",
@@ -65,7 +65,7 @@ void cz_corridor_say_device(const CzCorridor *corridor, char text[CZ_CORRIDOR_SE
                       corridor->place[i]);
 }
 
-void cz_corridor_say_tried(const CzCorridor *corridor, char text[CZ_CORRIDOR_SENTENCE]) {
+void cz_corridor_tried_sentence(const CzCorridor *corridor, char text[CZ_CORRIDOR_SENTENCE]) {
     char scatter[80] = "", number[CZ_FIGURE_ROOM];
     if (corridor->n_draw > 0)
         snprintf(scatter, sizeof scatter, ", these and the edges in %d samples of the scatter",
@@ -134,9 +134,9 @@ void cz_corridor_write_table(const CzReport *report, CzTerminal *terminal) {
     const CzCorridor *corridor = report->corridor;
     char text[CZ_CORRIDOR_SENTENCE];
     CzReportTable table;
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n", cz_problem_title(corridor->problem));
-    cz_corridor_say_device(corridor, text);
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n\n", text);
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s\n", cz_problem_title(corridor->problem));
+    cz_corridor_device_sentence(corridor, text);
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s\n\n", text);
     if (corridor->exists) {
         cz_corridor_begin_points(&table, corridor);
         cz_table_write_text(&table, terminal);
@@ -145,20 +145,22 @@ void cz_corridor_write_table(const CzReport *report, CzTerminal *terminal) {
         cz_table_write_text(&table, terminal);
         for (int edge = 0; edge < 2; edge++)
             if (cz_corridor_message(corridor, edge) != NULL)
-                cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s edge: %s\n",
-                                edge == 0 ? "lower" : "upper", cz_corridor_message(corridor, edge));
+                cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s edge: %s\n",
+                                  edge == 0 ? "lower" : "upper",
+                                  cz_corridor_message(corridor, edge));
         fputc('\n', terminal->stream);
     }
-    cz_corridor_say_result(corridor, text);
-    cz_terminal_say(terminal, corridor->exists ? CZ_STYLE_GOOD : CZ_STYLE_BAD, "%s.\n", text);
+    cz_corridor_result_sentence(corridor, text);
+    cz_terminal_print(terminal, corridor->exists ? CZ_STYLE_GOOD : CZ_STYLE_BAD, "%s.\n", text);
     if (corridor->exists) {
-        cz_corridor_say_tried(corridor, text);
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s.\n", text);
+        cz_corridor_tried_sentence(corridor, text);
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s.\n", text);
     }
-    cz_screening_say_of(corridor->problem, terminal);
+    cz_screening_print(corridor->problem, terminal);
     if (!corridor->is_interrupted)
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, "The design as written, with its reserves: %s.\n",
-                        cz_verdict_words(corridor->design.verdict, corridor->design.n_not_covered));
+        cz_terminal_print(
+            terminal, CZ_STYLE_PLAIN, "The design as written, with its reserves: %s.\n",
+            cz_verdict_words(corridor->design.verdict, corridor->design.n_not_covered));
     else
-        cz_terminal_say(terminal, CZ_STYLE_BAD, "INTERRUPTED: wider corridors were not tried.\n");
+        cz_terminal_print(terminal, CZ_STYLE_BAD, "INTERRUPTED: wider corridors were not tried.\n");
 }

@@ -8,9 +8,9 @@
 enum { CZ_CORRIDOR_SENTENCE = 600 };
 
 /* Sentences without their full stop: the result, the device, and what was tried. */
-void cz_corridor_say_result(const CzCorridor *corridor, char text[CZ_CORRIDOR_SENTENCE]);
-void cz_corridor_say_device(const CzCorridor *corridor, char text[CZ_CORRIDOR_SENTENCE]);
-void cz_corridor_say_tried(const CzCorridor *corridor, char text[CZ_CORRIDOR_SENTENCE]);
+void cz_corridor_result_sentence(const CzCorridor *corridor, char text[CZ_CORRIDOR_SENTENCE]);
+void cz_corridor_device_sentence(const CzCorridor *corridor, char text[CZ_CORRIDOR_SENTENCE]);
+void cz_corridor_tried_sentence(const CzCorridor *corridor, char text[CZ_CORRIDOR_SENTENCE]);
 
 /* Forces of both edges over the stroke; and what limits them. */
 void cz_corridor_begin_points(CzReportTable *table, const CzCorridor *corridor);

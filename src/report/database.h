@@ -18,7 +18,7 @@ typedef struct CzCell {
 } CzCell;
 
 /* Whether databases can be written. */
-bool cz_database_is_there(void);
+bool cz_database_is_available(void);
 
 /* Begins a database in an empty file. Statuses: CZ_OK, CZ_STATUS_INPUT where databases cannot be
  * written, CZ_STATUS_OUTPUT, CZ_STATUS_NO_MEMORY. */

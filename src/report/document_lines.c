@@ -43,7 +43,7 @@ const char *cz_document_text(const CzProblem *problem, int line, char text[CZ_DO
         snprintf(text, CZ_DOCUMENT_ROOM, "crushzone %s", cz_version());
         return text;
     case PROBLEM_FILE:
-        return cz_problem_told_name(problem, cz_problem_file(problem));
+        return cz_problem_reported_name(problem, cz_problem_file(problem));
     case HASH:
         return cz_problem_hash(problem);
     default:

@@ -14,30 +14,30 @@ enum { MOST_CHANGES = 6 }; /* on a terminal */
 static void write_head(const CzExplainedCheck *explained, CzTerminal *terminal) {
     const CzCheckResult *check = &explained->check;
     char value[CZ_CHECK_ROOM], limit[CZ_CHECK_ROOM], text[CZ_FIGURE_ROOM];
-    cz_terminal_say(terminal,
-                    check->verdict == CZ_VERDICT_FAIL   ? CZ_STYLE_BAD
-                    : cz_verdict_passes(check->verdict) ? CZ_STYLE_GOOD
-                                                        : CZ_STYLE_CAREFUL,
-                    "%s", cz_checks_word(check));
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "  %s, %s%s%s: ", check->name, check->scenario,
-                    check->where[0] != '\0' ? ", " : "", check->where);
+    cz_terminal_print(terminal,
+                      check->verdict == CZ_VERDICT_FAIL   ? CZ_STYLE_BAD
+                      : cz_verdict_passes(check->verdict) ? CZ_STYLE_GOOD
+                                                          : CZ_STYLE_CAREFUL,
+                      "%s", cz_checks_word(check));
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "  %s, %s%s%s: ", check->name, check->scenario,
+                      check->where[0] != '\0' ? ", " : "", check->where);
     if (isnan(check->value)) {
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n", check->why != NULL ? check->why : "-");
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s\n", check->why != NULL ? check->why : "-");
         return;
     }
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s against %s", cz_checks_value(value, check),
-                    cz_checks_limit(limit, check));
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s against %s", cz_checks_value(value, check),
+                      cz_checks_limit(limit, check));
     if (!isnan(check->margin))
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, ", margin %s",
-                        cz_figure_margin(text, check->margin));
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN, ", margin %s",
+                          cz_figure_margin(text, check->margin));
     if (!isnan(explained->time[0])) {
         const bool is_window = explained->time[1] > explained->time[0];
         cz_figure_fixed(text, 0, explained->time[0] * CZ_MILLI_PER_UNIT);
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, ", %s %s", is_window ? "from" : "at", text);
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN, ", %s %s", is_window ? "from" : "at", text);
         cz_figure_fixed(text, 0, explained->time[1] * CZ_MILLI_PER_UNIT);
         if (is_window)
-            cz_terminal_say(terminal, CZ_STYLE_PLAIN, " to %s", text);
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, " ms");
+            cz_terminal_print(terminal, CZ_STYLE_PLAIN, " to %s", text);
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN, " ms");
     }
     fputc('\n', terminal->stream);
 }
@@ -119,13 +119,13 @@ static void write_changes(const CzExplanation *explanation, const CzExplainedChe
     if (explanation->n_tried == 0)
         return;
     if (explained->n_change == 0) {
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN,
-                        "No change of a single one of %d numbers raises this margin.\n",
-                        explanation->n_tried);
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN,
+                          "No change of a single one of %d numbers raises this margin.\n",
+                          explanation->n_tried);
         return;
     }
     const bool is_clean = change->passes && change->n_broken == 0;
-    cz_terminal_say(
+    cz_terminal_print(
         terminal, CZ_STYLE_PLAIN,
         explained->check.verdict != CZ_VERDICT_FAIL ? "Single changes that raise the margin:\n"
         : is_clean ? "Single changes with which it passes and no other check breaks come "

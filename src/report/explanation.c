@@ -26,26 +26,26 @@ static const char *unit_of(const char *key) {
 static void write_head(const CzExplanation *explanation, CzTerminal *terminal) {
     const CzCheckResult *worst = &explanation->worst;
     char number[CZ_FIGURE_ROOM], value[CZ_CHECK_ROOM], limit[CZ_CHECK_ROOM];
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s: ", explanation->scenario);
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s: ", explanation->scenario);
     if (explanation->climbed) {
-        cz_terminal_say(terminal, CZ_STYLE_BAD, "OVERRIDE");
+        cz_terminal_print(terminal, CZ_STYLE_BAD, "OVERRIDE");
         cz_figure_fixed(number, 0, explanation->climb_time * CZ_MILLI_PER_UNIT);
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, " at %s ms; later results are beyond the model",
-                        number);
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN, " at %s ms; later results are beyond the model",
+                          number);
     } else if (worst->margin < 0) {
-        cz_terminal_say(terminal, CZ_STYLE_BAD, "close to override: a limit is violated");
+        cz_terminal_print(terminal, CZ_STYLE_BAD, "close to override: a limit is violated");
     } else if (explanation->verdict == CZ_VERDICT_NOT_CHECKED) {
-        cz_terminal_say(terminal, CZ_STYLE_CAREFUL, "NOT CHECKED in full");
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, ": %s",
-                        worst->why != NULL ? worst->why : "a margin is unknown");
+        cz_terminal_print(terminal, CZ_STYLE_CAREFUL, "NOT CHECKED in full");
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN, ": %s",
+                          worst->why != NULL ? worst->why : "a margin is unknown");
     } else {
-        cz_terminal_say(terminal, CZ_STYLE_GOOD, "no override");
+        cz_terminal_print(terminal, CZ_STYLE_GOOD, "no override");
     }
     fputs(".\n", terminal->stream);
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "Smallest margin: %s%s%s, %s against %s, %s\n",
-                    worst->name, worst->where[0] != '\0' ? " at " : "", worst->where,
-                    cz_checks_value(value, worst), cz_checks_limit(limit, worst),
-                    cz_figure_margin(number, worst->margin));
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "Smallest margin: %s%s%s, %s against %s, %s\n",
+                      worst->name, worst->where[0] != '\0' ? " at " : "", worst->where,
+                      cz_checks_value(value, worst), cz_checks_limit(limit, worst),
+                      cz_figure_margin(number, worst->margin));
 }
 
 static void write_indicators(const CzExplanation *explanation, CzTerminal *terminal) {

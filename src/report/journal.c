@@ -155,12 +155,12 @@ static bool read_head(char *line, CzArena *arena, CzJournalStart *start) {
     start->problem = cz_line_text(&cursor);
     cz_line_expect(&cursor, ", \"algorithm\": ");
     start->head.algorithm = cz_line_text(&cursor);
-    start->head.seed = cz_line_whole(&cursor, ", \"seed\": ");
-    start->head.evaluations = cz_line_whole(&cursor, ", \"evaluations\": ");
-    start->n_earlier = cz_line_whole(&cursor, ", \"earlier\": ");
-    start->n_variable = (int)cz_line_whole(&cursor, ", \"n_variable\": ");
-    start->n_constraint = (int)cz_line_whole(&cursor, ", \"n_constraint\": ");
-    start->n_detail = (int)cz_line_whole(&cursor, ", \"n_detail\": ");
+    start->head.seed = cz_line_integer(&cursor, ", \"seed\": ");
+    start->head.evaluations = cz_line_integer(&cursor, ", \"evaluations\": ");
+    start->n_earlier = cz_line_integer(&cursor, ", \"earlier\": ");
+    start->n_variable = (int)cz_line_integer(&cursor, ", \"n_variable\": ");
+    start->n_constraint = (int)cz_line_integer(&cursor, ", \"n_constraint\": ");
+    start->n_detail = (int)cz_line_integer(&cursor, ", \"n_detail\": ");
     start->head.set = cz_line_texts(&cursor, ", \"set\": [", &start->head.n_set);
     start->head.word = cz_line_texts(&cursor, ", \"options\": [", &start->head.n_word);
     return !cursor.failed && start->head.seed >= 0 && start->head.evaluations > 0 &&

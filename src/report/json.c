@@ -95,7 +95,7 @@ void cz_json_exact(CzJson *json, const char *key, double value) {
         fputs(".0", json->stream); /* keeps the number a real */
 }
 
-void cz_json_whole(CzJson *json, const char *key, long value) {
+void cz_json_integer(CzJson *json, const char *key, long value) {
     begin_item(json, key);
     fprintf(json->stream, "%ld", value);
 }

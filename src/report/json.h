@@ -27,7 +27,7 @@ void cz_json_close(CzJson *json);
 void cz_json_text(CzJson *json, const char *key, const char *text);
 void cz_json_real(CzJson *json, const char *key, double value);  /* a quantity: figure.h */
 void cz_json_exact(CzJson *json, const char *key, double value); /* typed, or measures an error */
-void cz_json_whole(CzJson *json, const char *key, long value);
+void cz_json_integer(CzJson *json, const char *key, long value);
 void cz_json_flag(CzJson *json, const char *key, bool value);
 
 /* Ends a document that is closed. Status: CZ_STATUS_OUTPUT. */

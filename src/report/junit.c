@@ -115,7 +115,7 @@ static void write_run_case(const Suites *suites, const CzRunSummary *run) {
 static void describe(const CzCheckResult *check, size_t room, char *text) {
     char value[CZ_CHECK_ROOM], limit[CZ_CHECK_ROOM], number[CZ_FIGURE_ROOM], when[CZ_CHECK_ROOM];
     const bool has_margin = !isnan(check->margin);
-    cz_checks_when(check, sizeof when, when);
+    cz_checks_time(check, sizeof when, when);
     snprintf(text, room, "value %s, limit %s%s%s%s%s%s%s%s", cz_checks_value(value, check),
              cz_checks_limit(limit, check), has_margin ? ", margin " : "",
              has_margin ? cz_figure_margin(number, check->margin) : "",

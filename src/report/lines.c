@@ -111,7 +111,7 @@ double cz_line_number(CzLineCursor *cursor) {
     return value;
 }
 
-long cz_line_whole(CzLineCursor *cursor, const char *before) {
+long cz_line_integer(CzLineCursor *cursor, const char *before) {
     cz_line_expect(cursor, before);
     const double value = cz_line_number(cursor);
     cursor->failed |= !(fabs(value) < 1e15) || value != round(value);

@@ -32,7 +32,7 @@ const char *cz_line_text(CzLineCursor *cursor);
 /* A number up to the sign that follows it. */
 double cz_line_number(CzLineCursor *cursor);
 /* A whole number behind a text. */
-long cz_line_whole(CzLineCursor *cursor, const char *before);
+long cz_line_integer(CzLineCursor *cursor, const char *before);
 /* A list behind a text; *n is its length. */
 const double *cz_line_numbers(CzLineCursor *cursor, const char *before, int *n);
 const char *const *cz_line_texts(CzLineCursor *cursor, const char *before, int *n);

@@ -11,7 +11,7 @@ static CzStatus refuse(CzError *error) {
                    "build it where libsqlite3-dev is installed; tables are in the CSV files too");
 }
 
-bool cz_database_is_there(void) {
+bool cz_database_is_available(void) {
     return false;
 }
 

@@ -28,10 +28,10 @@ static void write_objective(const CzEvaluator *evaluator, const CzOutcome *outco
             cz_figure_plain(text[i], evaluations[i]->objective);
         cz_figure_mark(text[i], evaluations[i]->beyond_validity);
     }
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s%s: %s -> %s%s%s\n\n",
-                    is_margin ? "smallest margin" : "objective ",
-                    is_margin ? "" : cz_evaluator_objective_name(evaluator), text[0], text[1],
-                    unit != NULL && unit[0] != '\0' ? " " : "", unit != NULL ? unit : "");
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s%s: %s -> %s%s%s\n\n",
+                      is_margin ? "smallest margin" : "objective ",
+                      is_margin ? "" : cz_evaluator_objective_name(evaluator), text[0], text[1],
+                      unit != NULL && unit[0] != '\0' ? " " : "", unit != NULL ? unit : "");
 }
 
 const char *cz_outcome_words(const CzEvaluator *evaluator, const CzOutcome *outcome) {
@@ -53,9 +53,9 @@ static void write_unchecked(const CzEvaluation *best, CzTerminal *terminal) {
         n += best->constraint_check[i].verdict == CZ_VERDICT_NOT_CHECKED &&
              !best->constraint_check[i].beyond_validity;
     if (n > 0)
-        cz_terminal_say(terminal, CZ_STYLE_CAREFUL,
-                        "%d constraint%s NOT CHECKED and did not guide the search.\n", n,
-                        n == 1 ? " was" : "s were");
+        cz_terminal_print(terminal, CZ_STYLE_CAREFUL,
+                          "%d constraint%s NOT CHECKED and did not guide the search.\n", n,
+                          n == 1 ? " was" : "s were");
 }
 
 /* A value or bound of a variable: a bound to its last digit, any other value with six, or with all
@@ -123,9 +123,11 @@ static void write_head(const CzEvaluator *evaluator, const CzOutcome *outcome,
                                      [CZ_OUTCOME_UNVERIFIED] = CZ_STYLE_BAD,
                                      [CZ_OUTCOME_INFEASIBLE] = CZ_STYLE_BAD,
                                      [CZ_OUTCOME_INTERRUPTED] = CZ_STYLE_CAREFUL};
-    cz_terminal_say(terminal, styles[outcome->status], "%s", cz_outcome_words(evaluator, outcome));
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, " after %ld evaluation%s: %s", outcome->n_evaluation,
-                    outcome->n_evaluation == 1 ? "" : "s", outcome->why_stopped);
+    cz_terminal_print(terminal, styles[outcome->status], "%s",
+                      cz_outcome_words(evaluator, outcome));
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, " after %ld evaluation%s: %s",
+                      outcome->n_evaluation, outcome->n_evaluation == 1 ? "" : "s",
+                      outcome->why_stopped);
     if (outcome->status == CZ_OUTCOME_INTERRUPTED)
         fprintf(terminal->stream, "; the best so far is %sfeasible",
                 outcome->best_evaluation.violation <= 0 ? "" : "NOT ");
@@ -136,7 +138,7 @@ static void write_head(const CzEvaluator *evaluator, const CzOutcome *outcome,
         fprintf(terminal->stream, "%s\n", text);
     write_unchecked(&outcome->best_evaluation, terminal);
     if (outcome->start_evaluation.beyond_validity || outcome->best_evaluation.beyond_validity)
-        cz_terminal_say(terminal, CZ_STYLE_BAD, CZ_FIGURE_CAUTION "\n");
+        cz_terminal_print(terminal, CZ_STYLE_BAD, CZ_FIGURE_CAUTION "\n");
     write_objective(evaluator, outcome, terminal);
 }
 
@@ -315,7 +317,7 @@ static void write_verification(const CzVerification *verification, CzTerminal *t
             fprintf(terminal->stream, "%s %s %%, ", cz_verify_method_text((CzVerifyMethod)method),
                     cz_figure_fixed(text, 1, tenths_above(verification->largest_change[method])));
     fputs("verification ", terminal->stream);
-    cz_terminal_say(terminal, passes ? CZ_STYLE_GOOD : CZ_STYLE_BAD, passes ? "pass" : "FAIL");
+    cz_terminal_print(terminal, passes ? CZ_STYLE_GOOD : CZ_STYLE_BAD, passes ? "pass" : "FAIL");
     fprintf(terminal->stream, "%s%s\n", verification->failure[0] != '\0' ? ": " : "",
             verification->failure);
     for (int method = 0; method < CZ_N_VERIFY_METHOD; method++)
@@ -339,7 +341,7 @@ void cz_outcome_write_table(const CzReport *report, CzTerminal *terminal) {
     const CzEvaluator *evaluator = report->evaluator;
     const CzOutcome *outcome = report->outcome;
     CzReportTable variables;
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(report->problem));
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(report->problem));
     write_head(evaluator, outcome, terminal);
     cz_outcome_begin_variables(&variables, report, false);
     write_table(&variables, terminal);

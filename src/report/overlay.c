@@ -163,7 +163,7 @@ CzStatus cz_overlay_write_resolved(const CzReport *report, FILE *stream, CzError
     CzError mistake = {0};
     CzStatus status = cz_overlay_read_best(report, &best, &mistake);
     if (status == CZ_OK) {
-        cz_problem_write_resolved_there(best, stream);
+        cz_problem_write_resolved_in_folder(best, stream);
     } else if (status == CZ_STATUS_NO_MEMORY) {
         status = cz_fail(error, status, "%s", mistake.message);
     } else { /* such as a file that has changed meanwhile: the best values must still be written */

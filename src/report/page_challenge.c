@@ -1,4 +1,4 @@
-/* A challenge as a page: the outcome, weak points, margins over the most telling numbers. */
+/* A challenge as a page: the outcome, weak points, margins over the most influential numbers. */
 #include "report/page_challenge.h"
 
 #include "base/error.h"
@@ -29,7 +29,8 @@ typedef struct Cloud {
 
 /* Size of the rank correlation of a number with the smallest margin, over the points that have
  * one; 0 where there is none. `room` is (4 n_point). */
-static double telling(const CzChallenge *challenge, int draw, double *room, bool *has_memory) {
+static double correlation_size(const CzChallenge *challenge, int draw, double *room,
+                               bool *has_memory) {
     const long n_point = challenge->n_point;
     double *x = room, *y = x + n_point, *x_rank = y + n_point, *y_rank = x_rank + n_point;
     int n = 0;
@@ -50,7 +51,7 @@ static int choose_numbers(const CzChallenge *challenge, int *draw, double *room,
     double size[MOST_NUMBERS];
     int n = 0;
     for (int d = 0; d < challenge->n_draw; d++) {
-        const double own = telling(challenge, d, room, has_memory);
+        const double own = correlation_size(challenge, d, room, has_memory);
         int at = n < MOST_NUMBERS ? n++ : MOST_NUMBERS;
         for (; at > 0 && size[at - 1] < own; at--)
             if (at < MOST_NUMBERS) {
@@ -224,15 +225,15 @@ CzStatus cz_page_write_challenge(const CzReport *report, FILE *stream, CzError *
     cz_page_write_head(&markup, title);
     cz_markup_write(&markup, "<h1>%s</h1>", title);
     cz_page_write_document(&markup, challenge->problem);
-    cz_challenge_say_outcome(challenge, text);
+    cz_challenge_outcome_sentence(challenge, text);
     cz_markup_write(&markup, "<header><p class='banner %s'>%s</p></header>\n<p>%s.</p>\n",
                     challenge->is_broken                             ? "fail"
                     : challenge->judgement == CZ_VERDICT_NOT_CHECKED ? "careful"
                                                                      : "pass",
                     challenge->is_broken ? "BROKEN" : "NOT BROKEN", text);
-    cz_challenge_say_how(challenge, text);
+    cz_challenge_method_sentence(challenge, text);
     cz_markup_write(&markup, "<p>%s.</p>\n", text);
-    cz_screening_write_of(challenge->problem, &markup);
+    cz_screening_write(challenge->problem, &markup);
     if (challenge->is_interrupted)
         cz_markup_write(&markup,
                         "<p class='fail'>The challenge was interrupted: runs are missing.</p>");

@@ -18,14 +18,14 @@ void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
         before = NULL;
     if (evaluation->n_check == 0) {
         cz_markup_write(markup, "<p>No check was made.</p>");
-        cz_apart_write(evaluation, markup);
+        cz_not_checked_write(evaluation, markup);
         return;
     }
     int n_more = 0;
     for (int i = 0; i < evaluation->n_check; i++)
         n_more += !evaluation->check[i].has_no_run && !cz_checks_is_shown(evaluation, i);
     cz_checks_write_rows(markup, evaluation, before, false);
-    cz_apart_write(evaluation, markup);
+    cz_not_checked_write(evaluation, markup);
     if (n_more == 0)
         return;
     cz_markup_write(

@@ -19,13 +19,13 @@
 
 static void write_banner(CzMarkup *markup, const CzCorridor *corridor) {
     char text[CZ_CORRIDOR_SENTENCE];
-    cz_corridor_say_result(corridor, text);
+    cz_corridor_result_sentence(corridor, text);
     cz_markup_write(markup, "<header><p class='banner %s'>%s</p></header>\n",
                     !corridor->exists                                      ? "fail"
                     : corridor->curve[0].verdict == CZ_VERDICT_PROVISIONAL ? "careful"
                                                                            : "pass",
                     text);
-    cz_corridor_say_device(corridor, text);
+    cz_corridor_device_sentence(corridor, text);
     cz_markup_write(markup, "<p><strong>Device: %s.</strong></p>\n", text);
     if (corridor->is_interrupted)
         cz_markup_write(markup,
@@ -98,7 +98,7 @@ static void write_limits(CzMarkup *markup, const CzCorridor *corridor) {
         if (cz_corridor_message(corridor, edge) != NULL)
             cz_markup_write(markup, "<p>%s edge: %s.</p>\n", edge == 0 ? "Lower" : "Upper",
                             cz_corridor_message(corridor, edge));
-    cz_corridor_say_tried(corridor, text);
+    cz_corridor_tried_sentence(corridor, text);
     cz_markup_write(markup, "<p>%s.</p>\n", text);
     if (corridor->n_refused > 0)
         cz_markup_write(markup,
@@ -219,7 +219,7 @@ static void write_open(CzMarkup *markup, const CzCorridor *corridor) {
                         "cases.</li>\n",
                         cz_problem_n_scenario(corridor->problem) - corridor->n_scenario);
     cz_markup_write(markup, "</ul>\n");
-    cz_apart_write(&corridor->design, markup);
+    cz_not_checked_write(&corridor->design, markup);
     cz_markup_write(markup, "</section>\n");
 }
 

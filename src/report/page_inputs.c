@@ -74,7 +74,7 @@ static void write_command(CzPage *page) {
     quote(text, sizeof text,
           options->text != NULL
               ? "-"
-              : cz_problem_told_name(page->problem, cz_problem_file(page->problem)));
+              : cz_problem_reported_name(page->problem, cz_problem_file(page->problem)));
     for (int i = 0; i < options->n_word; i++)
         quote(text, sizeof text, options->word[i]);
     for (int i = 0; i < options->n_set && strlen(text) + 512 < sizeof text; i++) {
@@ -96,7 +96,7 @@ static void write_versions(CzPage *page) {
     cz_markup_write(&page->markup,
                     "<p>crushzone %s, NLopt %s, SUNDIALS %s; problem file %s, content hash %s</p>",
                     cz_version(), nlopt, sundials,
-                    cz_problem_told_name(page->problem, cz_problem_file(page->problem)),
+                    cz_problem_reported_name(page->problem, cz_problem_file(page->problem)),
                     cz_problem_hash(page->problem));
 }
 
@@ -131,7 +131,7 @@ static void write_sources(CzPage *page) {
     for (const CzSource *source = cz_problem_first_source(page->problem); source != NULL;
          source = source->next) {
         cz_markup_write(markup, "<details><summary>%s</summary><pre>",
-                        cz_problem_told_name(page->problem, source->name));
+                        cz_problem_reported_name(page->problem, source->name));
         for (int i = 0; i < source->n_line && i < MOST_SOURCE_LINES; i++)
             cz_markup_write(markup, "%s\n", source->line[i]);
         if (source->n_line > MOST_SOURCE_LINES)

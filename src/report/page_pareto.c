@@ -188,7 +188,7 @@ CzStatus cz_page_write_pareto(const CzPareto *pareto, const CzProblem *problem, 
                         "<p class='fail'>The search was interrupted: points are missing.</p>");
     cz_pareto_describe(pareto, sizeof text, text);
     cz_markup_write(&markup, "<p>%s</p>\n", text);
-    cz_screening_write_of(problem, &markup);
+    cz_screening_write(problem, &markup);
     cz_markup_write(&markup, "<section id='figures'>\n<h2>Front</h2>\n<div class='figures'>");
     draw(pareto, true, &markup);
     cz_markup_write(&markup, "</div></section>\n<section id='points'>\n<h2>Points</h2>\n");

@@ -26,17 +26,17 @@ static void write_banner(CzMarkup *markup, const CzSampling *sampling) {
     cz_markup_write(markup, "<header><p class='banner %s'>%s%s</p></header>\n",
                     cz_verdict_class(verdict), cz_verdict_title(verdict),
                     cz_screening_remark(verdict, sampling->nominal.n_not_covered, remark));
-    cz_sample_say_share(sampling, text);
+    cz_sample_share_sentence(sampling, text);
     cz_markup_write(markup, "<p><strong>%s.</strong></p>\n", text);
-    if (cz_sample_say_unjudged(sampling, text))
+    if (cz_sample_unjudged_sentence(sampling, text))
         cz_markup_write(markup, "<p class='fail'>%s.</p>\n", text);
-    cz_sample_say_how(sampling, text);
+    cz_sample_method_sentence(sampling, text);
     cz_markup_write(markup,
                     "<p>%s. The verdict is that of the %s of each check; the nominal design: "
                     "%s.</p>\n",
                     text, sampling->judged_by,
                     cz_verdict_words(sampling->nominal.verdict, sampling->nominal.n_not_covered));
-    cz_screening_write_of(sampling->problem, markup);
+    cz_screening_write(sampling->problem, markup);
     if (sampling->is_interrupted)
         cz_markup_write(markup,
                         "<p class='fail'>The sampling was interrupted: samples are missing.</p>");

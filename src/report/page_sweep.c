@@ -94,7 +94,7 @@ static CzStatus write_curves(CzMarkup *markup, const CzSweep *sweep, CzError *er
 
 static void write_cell(CzMarkup *markup, const CzSweepPoint *point, double x, double y,
                        double width, double height) {
-    const CzPointLook look = cz_point_look(point);
+    const CzPointStyle look = cz_point_style(point);
     cz_markup_write(markup,
                     "<rect x='%.1f' y='%.1f' width='%.1f' height='%.1f' fill='%s' "
                     "fill-opacity='.75' stroke='currentColor' stroke-width='.4'/>",
@@ -159,7 +159,7 @@ CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error)
     }
     if (cz_sweep_is_beyond(sweep))
         cz_markup_write(&markup, "<p class='fail'>" CZ_SWEEP_BEYOND "</p>");
-    cz_screening_write_of(sweep->problem, &markup);
+    cz_screening_write(sweep->problem, &markup);
     cz_markup_write(&markup, "<section id='figures'>\n<h2>%s</h2>\n<div class='figures'>",
                     sweep->n_axis == 1 ? "Over the value" : "Map");
     if (sweep->n_axis == 1)

@@ -25,11 +25,11 @@ static inline bool cz_sweep_is_beyond(const CzSweep *sweep) {
 CZ_MUST_CHECK CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error);
 
 /* Word of a point, sign and colour in a map, style in a table. */
-typedef struct CzPointLook {
+typedef struct CzPointStyle {
     const char *word, *sign, *colour;
     CzStyle style;
-} CzPointLook;
-CzPointLook cz_point_look(const CzSweepPoint *point);
+} CzPointStyle;
+CzPointStyle cz_point_style(const CzSweepPoint *point);
 
 /* Sentence, without its full stop, on the scenarios that a value does not reach, from the index-th
  * on; returns how many it names or counts. */

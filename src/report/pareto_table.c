@@ -86,13 +86,13 @@ void cz_pareto_write_table(const CzReport *report, CzTerminal *terminal) {
     const CzPareto *pareto = report->pareto;
     CzReportTable table;
     char text[CZ_SENTENCE_ROOM];
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(report->problem));
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(report->problem));
     cz_pareto_begin_points(&table, pareto);
     cz_table_write_text(&table, terminal);
     cz_pareto_describe(pareto, sizeof text, text);
     fputc('\n', terminal->stream);
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n", text);
-    cz_screening_say_of(report->problem, terminal);
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s\n", text);
+    cz_screening_print(report->problem, terminal);
     if (pareto->is_interrupted)
-        cz_terminal_say(terminal, CZ_STYLE_BAD, "INTERRUPTED: points are missing.\n");
+        cz_terminal_print(terminal, CZ_STYLE_BAD, "INTERRUPTED: points are missing.\n");
 }

@@ -203,7 +203,7 @@ static CzStatus write_content(const Results *results, Content content, FILE *str
     case RESOLVED: /* the problem that gives these results when it is run alone */
         if (report->outcome != NULL)
             return cz_overlay_write_resolved(report, stream, error);
-        cz_problem_write_resolved_there(report->problem, stream);
+        cz_problem_write_resolved_in_folder(report->problem, stream);
         return CZ_OK;
     case REPORT:
         return write_report(results, stream, error);

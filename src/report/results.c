@@ -107,7 +107,7 @@ static void put_whole(CzJson *json, const CzResult *result, const char *key, lon
     if (result->is_null_below_0 && whole < 0)
         cz_json_text(json, key, NULL);
     else
-        cz_json_whole(json, key, whole);
+        cz_json_integer(json, key, whole);
 }
 
 static void put_results(CzJson *json, CzRecord record, CzResultContext *context, const void *data);

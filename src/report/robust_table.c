@@ -54,7 +54,7 @@ void cz_robust_begin_checks(CzReportTable *table, const CzRobust *robust, const 
     }
 }
 
-void cz_robust_say_challenge(const CzRobust *robust, char text[CZ_ROBUST_SENTENCE]) {
+void cz_robust_challenge_sentence(const CzRobust *robust, char text[CZ_ROBUST_SENTENCE]) {
     const CzChallenge *challenge = robust->challenge;
     const CzProblem *problem = robust->problem;
     text[0] = '\0';
@@ -87,12 +87,12 @@ void cz_robust_write_table(const CzRobust *robust, CzTerminal *terminal) {
     fputc('\n', terminal->stream);
     cz_robust_begin_checks(&table, robust, order, MOST_CHECKS);
     cz_table_write_text(&table, terminal);
-    cz_sample_say_share(robust->sampling, text);
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s, judged by %s.\n", text,
-                    robust->sampling->judged_by);
-    cz_robust_say_challenge(robust, text);
+    cz_sample_share_sentence(robust->sampling, text);
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s, judged by %s.\n", text,
+                      robust->sampling->judged_by);
+    cz_robust_challenge_sentence(robust, text);
     if (text[0] != '\0')
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s.\n", text);
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s.\n", text);
     free(order);
 }
 
@@ -111,9 +111,9 @@ void cz_robust_write_page(const CzRobust *robust, CzMarkup *markup) {
                     "that of the scenarios of the file, with their reserves.</p>");
     cz_robust_begin_rounds(&table, robust);
     cz_table_write_page(&table, markup);
-    cz_sample_say_share(robust->sampling, text);
+    cz_sample_share_sentence(robust->sampling, text);
     cz_markup_write(markup, "<p>%s, judged by %s.</p>", text, robust->sampling->judged_by);
-    cz_robust_say_challenge(robust, text);
+    cz_robust_challenge_sentence(robust, text);
     if (text[0] != '\0')
         cz_markup_write(markup, "<p>%s.</p>", text);
     cz_robust_begin_checks(&table, robust, order, MOST_CHECKS);

@@ -15,7 +15,7 @@ void cz_robust_begin_checks(CzReportTable *table, const CzRobust *robust, const 
 
 /* Sentence without its full stop about the adversary; empty without an envelope. */
 enum { CZ_ROBUST_SENTENCE = 300 };
-void cz_robust_say_challenge(const CzRobust *robust, char text[CZ_ROBUST_SENTENCE]);
+void cz_robust_challenge_sentence(const CzRobust *robust, char text[CZ_ROBUST_SENTENCE]);
 
 /* All of it on a terminal. */
 void cz_robust_write_table(const CzRobust *robust, CzTerminal *terminal);

@@ -46,32 +46,33 @@ static void write_run_head(const CzProblem *problem, const CzRunSummary *run,
                            CzTerminal *terminal) {
     static const char poor[] = "POOR: reduce the time step";
     char number[CZ_FIGURE_ROOM];
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s", run->scenario);
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s", run->scenario);
     write_speeds(problem, run->scenario, terminal->stream);
     if (run->status != CZ_OK) {
         fputs("   ", terminal->stream);
-        cz_terminal_say(terminal, CZ_STYLE_BAD, "RUN FAILED");
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, ": %s\n", run->failure);
+        cz_terminal_print(terminal, CZ_STYLE_BAD, "RUN FAILED");
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN, ": %s\n", run->failure);
         return;
     }
     fprintf(terminal->stream, "   %s s simulated, ", cz_figure_digits(number, 3, run->simulated));
     if (run->ended == CZ_ENDED_INCOMPLETE)
-        cz_terminal_say(terminal, CZ_STYLE_BAD,
-                        "INCOMPLETE: end criterion not met within simulation.longest_s = %s: %s",
-                        cz_figure_digits(number, 3, cz_problem_input(problem)->simulation.longest),
-                        run->awaited);
+        cz_terminal_print(
+            terminal, CZ_STYLE_BAD,
+            "INCOMPLETE: end criterion not met within simulation.longest_s = %s: %s",
+            cz_figure_digits(number, 3, cz_problem_input(problem)->simulation.longest),
+            run->awaited);
     else
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s", cz_ended_text(run->ended));
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s", cz_ended_text(run->ended));
     fprintf(terminal->stream, "   energy balance %s",
             cz_figure_percent(number, run->energy.balance_error));
     if (cz_run_is_unbalanced(run)) {
         fputs("   ", terminal->stream);
-        cz_terminal_say(terminal, CZ_STYLE_BAD, "%s", poor);
+        cz_terminal_print(terminal, CZ_STYLE_BAD, "%s", poor);
     }
     if (cz_run_misses_laws(run)) {
         fprintf(terminal->stream, "   force error of series chains %s ",
                 cz_figure_percent(number, run->law_error));
-        cz_terminal_say(terminal, CZ_STYLE_BAD, "%s", poor);
+        cz_terminal_print(terminal, CZ_STYLE_BAD, "%s", poor);
     }
     fputc('\n', terminal->stream);
 }
@@ -147,15 +148,16 @@ static void write_climbing(const CzRunSummary *run, CzTerminal *terminal) {
         const CzEvent *event = &run->event[i];
         const bool override = event->what == CZ_EVENT_OVERRIDE;
         if (override || event->what == CZ_EVENT_WHEEL_LIFT)
-            cz_terminal_say(terminal, override ? CZ_STYLE_BAD : CZ_STYLE_PLAIN, "%s: %s at %s ms\n",
-                            override ? "OVERRIDE" : "wheel lift", event->where,
-                            cz_figure_fixed(time, 0, event->time * CZ_MILLI_PER_UNIT));
+            cz_terminal_print(terminal, override ? CZ_STYLE_BAD : CZ_STYLE_PLAIN,
+                              "%s: %s at %s ms\n", override ? "OVERRIDE" : "wheel lift",
+                              event->where,
+                              cz_figure_fixed(time, 0, event->time * CZ_MILLI_PER_UNIT));
     }
     if (run->beyond_validity)
-        cz_terminal_say(terminal, CZ_STYLE_BAD,
-                        "From %s ms on this run is beyond model validity. " CZ_FIGURE_MARK_MEANS
-                        ".\n",
-                        cz_figure_fixed(time, 0, run->beyond_validity_time * CZ_MILLI_PER_UNIT));
+        cz_terminal_print(terminal, CZ_STYLE_BAD,
+                          "From %s ms on this run is beyond model validity. " CZ_FIGURE_MARK_MEANS
+                          ".\n",
+                          cz_figure_fixed(time, 0, run->beyond_validity_time * CZ_MILLI_PER_UNIT));
 }
 
 /* ---- families of scenarios ---- */
@@ -214,8 +216,8 @@ static void write_family(const CzProblem *problem, const CzEvaluation *evaluatio
     int n = 0;
     for (int i = 0; i < evaluation->n_run; i++)
         n += member_of(problem, evaluation, i, family) != NULL;
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s: the worst of %d scenarios%s%s", family, n,
-                    worst != NULL ? " by " : "", worst != NULL ? worst->name : "");
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s: the worst of %d scenarios%s%s", family, n,
+                      worst != NULL ? " by " : "", worst != NULL ? worst->name : "");
     if (worst != NULL && !worst->is_flag)
         fprintf(terminal->stream, ", margin %s", cz_figure_margin(margin, worst->margin));
     fputc('\n', terminal->stream);
@@ -230,7 +232,7 @@ static bool is_printed(const CzProblem *problem, const CzEvaluation *evaluation,
 void cz_run_write_table(const CzReport *report, CzTerminal *terminal) {
     const CzProblem *problem = report->problem;
     const CzEvaluation *evaluation = report->evaluation;
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(problem));
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(problem));
     for (int i = 0; i < evaluation->n_run; i++) {
         const CzRunSummary *run = cz_kept_run(evaluation, i);
         if (run == NULL || !is_printed(problem, evaluation, i))

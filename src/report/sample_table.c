@@ -42,7 +42,7 @@ static void append(char text[CZ_SAMPLE_SENTENCE], const char *between, int n, co
     snprintf(text + used, CZ_SAMPLE_SENTENCE - used, "%s%d %s", between, n, what);
 }
 
-void cz_sample_say_share(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]) {
+void cz_sample_share_sentence(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]) {
     const CzSampledShare *passing = &sampling->passing;
     char share[CZ_FIGURE_ROOM], low[CZ_FIGURE_ROOM], high[CZ_FIGURE_ROOM];
     snprintf(text, CZ_SAMPLE_SENTENCE, "%d of %d samples pass: %s %% (95 %% interval %s to %s %%)",
@@ -55,7 +55,7 @@ void cz_sample_say_share(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENC
                                        : "of them gave no result and count as failing");
 }
 
-void cz_sample_say_how(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]) {
+void cz_sample_method_sentence(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]) {
     snprintf(text, CZ_SAMPLE_SENTENCE, "%d samples of %d random numbers, %s, seed %ld",
              sampling->n_sample, sampling->n_draw, sampling->method, sampling->seed);
     if (sampling->n_shard > 1) {
@@ -74,7 +74,7 @@ static const CzCheckResult *first_unchecked(const CzEvaluation *nominal) {
     return NULL;
 }
 
-bool cz_sample_say_unjudged(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]) {
+bool cz_sample_unjudged_sentence(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]) {
     const CzCheckResult *check = first_unchecked(&sampling->nominal);
     int n = 0;
     for (int k = 0; k < sampling->n_sample; k++)
@@ -182,12 +182,12 @@ static void write_failures(const CzSampling *sampling, CzTerminal *terminal) {
         if (sample->message == NULL)
             continue;
         n++;
-        cz_terminal_say(terminal, CZ_STYLE_BAD, "Sample %d %s: %s\n", k + 1,
-                        cz_sample_state_text(sample->state), sample->message);
+        cz_terminal_print(terminal, CZ_STYLE_BAD, "Sample %d %s: %s\n", k + 1,
+                          cz_sample_state_text(sample->state), sample->message);
     }
     if (sampling->n_failed > MOST_FAILURES)
-        cz_terminal_say(terminal, CZ_STYLE_BAD, "and %d more without results.\n",
-                        sampling->n_failed - MOST_FAILURES);
+        cz_terminal_print(terminal, CZ_STYLE_BAD, "and %d more without results.\n",
+                          sampling->n_failed - MOST_FAILURES);
 }
 
 static void write_checks(const CzSampling *sampling, CzTerminal *terminal) {
@@ -200,10 +200,10 @@ static void write_checks(const CzSampling *sampling, CzTerminal *terminal) {
     const int n_more = cz_sample_begin_checks(&table, sampling, order, true);
     cz_table_write_text(&table, terminal);
     if (n_more > 0)
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN,
-                        "%d more checks of other scenarios, each better than the one of its name "
-                        "above.\n",
-                        n_more);
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN,
+                          "%d more checks of other scenarios, each better than the one of its name "
+                          "above.\n",
+                          n_more);
     free(order);
 }
 
@@ -215,13 +215,14 @@ static void write_worst(const CzReport *report, CzTerminal *terminal) {
         return;
     const CzSample *sample = &sampling->sample[worst];
     char text[CZ_FIGURE_ROOM];
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "Worst: sample %d, %s", worst + 1,
-                    sample->state != CZ_SAMPLE_DONE ? cz_sample_state_text(sample->state)
-                    : isinf(sample->margin)         ? "beyond model validity"
-                                                    : cz_figure_margin(text, sample->margin));
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "Worst: sample %d, %s", worst + 1,
+                      sample->state != CZ_SAMPLE_DONE ? cz_sample_state_text(sample->state)
+                      : isinf(sample->margin)         ? "beyond model validity"
+                                                      : cz_figure_margin(text, sample->margin));
     if (sample->check >= 0)
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, ": %s in %s", sampling->check[sample->check].name,
-                        sampling->check[sample->check].scenario);
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN, ": %s in %s",
+                          sampling->check[sample->check].name,
+                          sampling->check[sample->check].scenario);
     fputs(".\n", terminal->stream);
     if (cz_replay_is_settings(sampling) && sample->state != CZ_SAMPLE_INVALID) {
         fputs("With the reserves of the design: ", terminal->stream);
@@ -235,20 +236,20 @@ static void write_judgement(const CzSampling *sampling, CzTerminal *terminal) {
     const int n_not_covered = sampling->nominal.n_not_covered;
     char text[CZ_SCREENING_ROOM];
     const char *remark = cz_screening_remark(verdict, n_not_covered, text);
-    cz_terminal_say(terminal, cz_verdict_style(verdict), "%s", cz_verdict_title(verdict));
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN,
-                    "%s%s judged by the %s of each check. The nominal design: %s.\n", remark,
-                    remark[0] != '\0' ? ";" : ",", sampling->judged_by,
-                    cz_verdict_words(sampling->nominal.verdict, n_not_covered));
+    cz_terminal_print(terminal, cz_verdict_style(verdict), "%s", cz_verdict_title(verdict));
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN,
+                      "%s%s judged by the %s of each check. The nominal design: %s.\n", remark,
+                      remark[0] != '\0' ? ";" : ",", sampling->judged_by,
+                      cz_verdict_words(sampling->nominal.verdict, n_not_covered));
 }
 
 void cz_sample_write_table(const CzReport *report, CzTerminal *terminal) {
     const CzSampling *sampling = report->sampling;
     CzReportTable table;
     char text[CZ_SAMPLE_SENTENCE];
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n", cz_problem_title(sampling->problem));
-    cz_sample_say_how(sampling, text);
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n\n", text);
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s\n", cz_problem_title(sampling->problem));
+    cz_sample_method_sentence(sampling, text);
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s\n\n", text);
     if (sampling->n_draw <= MOST_DRAWS) {
         cz_sample_begin_draws(&table, CZ_DRAW_HEADS("random number"), sampling->n_draw,
                               sampling->draw);
@@ -259,14 +260,14 @@ void cz_sample_write_table(const CzReport *report, CzTerminal *terminal) {
         write_checks(sampling, terminal);
         fputc('\n', terminal->stream);
         write_failures(sampling, terminal);
-        cz_sample_say_share(sampling, text);
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s.\n", text);
-        if (cz_sample_say_unjudged(sampling, text))
-            cz_terminal_say(terminal, CZ_STYLE_CAREFUL, "%s.\n", text);
+        cz_sample_share_sentence(sampling, text);
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s.\n", text);
+        if (cz_sample_unjudged_sentence(sampling, text))
+            cz_terminal_print(terminal, CZ_STYLE_CAREFUL, "%s.\n", text);
         write_worst(report, terminal);
     }
-    cz_screening_say_of(sampling->problem, terminal);
+    cz_screening_print(sampling->problem, terminal);
     write_judgement(sampling, terminal);
     if (sampling->is_interrupted)
-        cz_terminal_say(terminal, CZ_STYLE_BAD, "INTERRUPTED: samples are missing.\n");
+        cz_terminal_print(terminal, CZ_STYLE_BAD, "INTERRUPTED: samples are missing.\n");
 }

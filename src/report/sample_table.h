@@ -12,11 +12,11 @@ enum { CZ_SAMPLE_SENTENCE = 300 };
 int *cz_sample_order(const CzSampling *sampling);
 
 /* Sentences without their full stop: how many samples pass, and how they were drawn. */
-void cz_sample_say_share(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]);
-void cz_sample_say_how(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]);
+void cz_sample_share_sentence(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]);
+void cz_sample_method_sentence(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]);
 
 /* how many samples have no verdict, and the first check that cannot be made; false for none. */
-bool cz_sample_say_unjudged(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]);
+bool cz_sample_unjudged_sentence(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]);
 
 /* The table of checks, or of the worst one of each name; returns the number of those left out. */
 int cz_sample_begin_checks(CzReportTable *table, const CzSampling *sampling, const int *order,

@@ -137,7 +137,7 @@ static const char *read_key(CzLineCursor *cursor, const char *key) {
 
 /* A whole number within bounds. */
 static int read_whole(CzLineCursor *cursor, const char *before, long lo, long hi) {
-    const long value = cz_line_whole(cursor, before);
+    const long value = cz_line_integer(cursor, before);
     cursor->failed |= value < lo || value > hi;
     return cursor->failed ? (int)lo : (int)value;
 }

@@ -15,7 +15,7 @@ struct CzDatabase {
 /* Largest whole number that a double has with all smaller ones. */
 static const double largest_whole = 9007199254740992.0;
 
-bool cz_database_is_there(void) {
+bool cz_database_is_available(void) {
     return true;
 }
 

@@ -10,8 +10,8 @@
 #include <math.h>
 #include <string.h>
 
-CzPointLook cz_point_look(const CzSweepPoint *point) {
-    static const CzPointLook of_state[] = {
+CzPointStyle cz_point_style(const CzSweepPoint *point) {
+    static const CzPointStyle of_state[] = {
         [CZ_SWEEP_RUN_FAILED] = {"RUN FAILED", "!", "#5c0010", CZ_STYLE_BAD},
         [CZ_SWEEP_INVALID] = {"invalid", "-", "#9a9a9a", CZ_STYLE_PLAIN},
         [CZ_SWEEP_NOT_RUN] = {"not run", " ", "none", CZ_STYLE_PLAIN}};
@@ -24,13 +24,13 @@ CzPointLook cz_point_look(const CzSweepPoint *point) {
     const CzVerdict verdict = point->verdict;
     return point->state != CZ_SWEEP_DONE
                ? of_state[point->state]
-               : (CzPointLook){cz_verdict_word(verdict), of_verdict[verdict].sign,
-                               of_verdict[verdict].colour, cz_verdict_style(verdict)};
+               : (CzPointStyle){cz_verdict_word(verdict), of_verdict[verdict].sign,
+                                of_verdict[verdict].colour, cz_verdict_style(verdict)};
 }
 
 static void put_point(CzReportTable *table, const CzSweep *sweep, const CzSweepPoint *point) {
     char text[CZ_FIGURE_ROOM];
-    const CzPointLook look = cz_point_look(point);
+    const CzPointStyle look = cz_point_style(point);
     for (int k = 0; k < sweep->n_axis; k++)
         cz_table_put(table, cz_figure_digits(text, 6, point->value[k]));
     cz_table_put_styled(table, look.word, look.style);
@@ -103,16 +103,16 @@ static void write_values(const CzSweepAxis *axis, CzTerminal *terminal) {
 static void write_map(const CzSweep *sweep, CzTerminal *terminal) {
     const CzSweepAxis *down = &sweep->axis[0], *across = &sweep->axis[1];
     char from[CZ_FIGURE_ROOM];
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "across: %s, ", across->path);
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "across: %s, ", across->path);
     write_values(across, terminal);
     fputc('\n', terminal->stream);
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "down:   %s\n\n", down->path);
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "down:   %s\n\n", down->path);
     for (int row = 0; row < down->n; row++) {
         fprintf(terminal->stream, "%12s  ",
                 cz_figure_digits(from, 6, cz_sweep_axis_value(down, row)));
         for (int column = 0; column < across->n; column++) {
-            const CzPointLook look = cz_point_look(&sweep->point[row * across->n + column]);
-            cz_terminal_say(terminal, look.style, "%s", look.sign);
+            const CzPointStyle look = cz_point_style(&sweep->point[row * across->n + column]);
+            cz_terminal_print(terminal, look.style, "%s", look.sign);
             fputc(column + 1 < across->n ? ' ' : '\n', terminal->stream);
         }
     }
@@ -133,9 +133,9 @@ static void write_reasons(const CzSweep *sweep, CzTerminal *terminal) {
         if (is_known)
             continue;
         n++;
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s at %s, %s: %s\n", cz_point_look(point).sign,
-                        cz_figure_digits(down, 6, point->value[0]),
-                        cz_figure_digits(across, 6, point->value[1]), point->message);
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s at %s, %s: %s\n",
+                          cz_point_style(point).sign, cz_figure_digits(down, 6, point->value[0]),
+                          cz_figure_digits(across, 6, point->value[1]), point->message);
     }
 }
 
@@ -145,20 +145,20 @@ static void write_worst(const CzSweep *sweep, CzTerminal *terminal) {
         return;
     }
     const CzSweepPoint *worst = &sweep->point[sweep->worst];
-    const CzPointLook look = cz_point_look(worst);
+    const CzPointStyle look = cz_point_style(worst);
     char text[CZ_FIGURE_ROOM];
     fputs("Worst: ", terminal->stream);
     for (int k = 0; k < sweep->n_axis; k++)
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s = %s, ", sweep->axis[k].path,
-                        cz_figure_digits(text, 6, worst->value[k]));
-    cz_terminal_say(terminal, look.style, "%s", look.word);
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s = %s, ", sweep->axis[k].path,
+                          cz_figure_digits(text, 6, worst->value[k]));
+    cz_terminal_print(terminal, look.style, "%s", look.word);
     if (worst->state == CZ_SWEEP_DONE && worst->check[0] != '\0') {
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, ": %s%s%s in %s", worst->check,
-                        worst->where[0] != '\0' ? " at " : "", worst->where, worst->scenario);
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN, ": %s%s%s in %s", worst->check,
+                          worst->where[0] != '\0' ? " at " : "", worst->where, worst->scenario);
         if (!isnan(worst->margin))
             fprintf(terminal->stream, ", margin %s", cz_figure_margin(text, worst->margin));
     } else {
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, ": %s", worst->message);
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN, ": %s", worst->message);
     }
     fputs(".\n", terminal->stream);
 }
@@ -166,15 +166,16 @@ static void write_worst(const CzSweep *sweep, CzTerminal *terminal) {
 void cz_sweep_write_table(const CzReport *report, CzTerminal *terminal) {
     const CzSweep *sweep = report->sweep;
     CzReportTable table;
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n", cz_problem_title(sweep->problem));
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s\n", cz_problem_title(sweep->problem));
     if (sweep->n_shard > 1)
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, "Shard %d of %d: points %d to %d of %d.\n",
-                        sweep->shard, sweep->n_shard, sweep->begin + 1, sweep->end, sweep->n_point);
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN, "Shard %d of %d: points %d to %d of %d.\n",
+                          sweep->shard, sweep->n_shard, sweep->begin + 1, sweep->end,
+                          sweep->n_point);
     char sentence[CZ_SENTENCE_ROOM];
     for (int i = 0; i < sweep->n_unreached;) {
         i += cz_sweep_unreached_sentence(sweep, i, sentence);
-        cz_terminal_say(terminal, CZ_STYLE_CAREFUL, "warning");
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, ": %s.\n", sentence);
+        cz_terminal_print(terminal, CZ_STYLE_CAREFUL, "warning");
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN, ": %s.\n", sentence);
     }
     fputc('\n', terminal->stream);
     if (sweep->n_axis == 1) {
@@ -185,9 +186,9 @@ void cz_sweep_write_table(const CzReport *report, CzTerminal *terminal) {
         write_reasons(sweep, terminal);
     }
     if (cz_sweep_is_beyond(sweep))
-        cz_terminal_say(terminal, CZ_STYLE_BAD, CZ_SWEEP_BEYOND "\n");
+        cz_terminal_print(terminal, CZ_STYLE_BAD, CZ_SWEEP_BEYOND "\n");
     write_worst(sweep, terminal);
-    cz_screening_say_of(sweep->problem, terminal);
+    cz_screening_print(sweep->problem, terminal);
     if (sweep->is_interrupted)
-        cz_terminal_say(terminal, CZ_STYLE_BAD, "INTERRUPTED: points are missing.\n");
+        cz_terminal_print(terminal, CZ_STYLE_BAD, "INTERRUPTED: points are missing.\n");
 }

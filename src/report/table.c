@@ -22,7 +22,7 @@ static void write_styled(CzTerminal *terminal, const char *text, CzStyle style) 
         fputs("\033[0m", terminal->stream);
 }
 
-void cz_terminal_say(CzTerminal *terminal, CzStyle style, const char *format, ...) {
+void cz_terminal_print(CzTerminal *terminal, CzStyle style, const char *format, ...) {
     enum { ROOM = 4 * CZ_SENTENCE_ROOM };
     char text[ROOM];
     const char *end = format + strlen(format);

@@ -86,7 +86,7 @@ typedef struct CzTerminal {
 
 /* Writes a text in a style: control characters become '?', line ends at the end of the format stay.
  */
-void cz_terminal_say(CzTerminal *terminal, CzStyle style, const char *format, ...)
+void cz_terminal_print(CzTerminal *terminal, CzStyle style, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 /* Writes all rows and frees the table. */

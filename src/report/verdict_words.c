@@ -45,10 +45,10 @@ static const char not_covered[] = "Not covered by this program, to be shown by o
 static const char not_applicable[] = "Scenarios of the profile that do not apply";
 
 /* A sentence that lists texts. */
-static void say_list(const char *title, int n, const char *const *text, CzTerminal *terminal) {
+static void print_list(const char *title, int n, const char *const *text, CzTerminal *terminal) {
     for (int i = 0; i < n; i++)
-        cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s%s%s", i > 0 ? "; " : title, i > 0 ? "" : ": ",
-                        text[i]);
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s%s%s", i > 0 ? "; " : title,
+                          i > 0 ? "" : ": ", text[i]);
     if (n > 0)
         fputs(".\n", terminal->stream);
 }
@@ -63,17 +63,17 @@ static void write_list(const char *title, int n, const char *const *text, CzMark
         cz_markup_write(markup, ".</p>\n");
 }
 
-void cz_apart_say(const CzEvaluation *evaluation, CzTerminal *terminal) {
+void cz_not_checked_print(const CzEvaluation *evaluation, CzTerminal *terminal) {
     for (int i = 0; i < evaluation->n_not_judged; i++) {
         fputs("Not judged: ", terminal->stream);
-        cz_terminal_say(terminal, CZ_STYLE_CAREFUL, "%s", evaluation->not_judged[i].train);
+        cz_terminal_print(terminal, CZ_STYLE_CAREFUL, "%s", evaluation->not_judged[i].train);
         fprintf(terminal->stream, ", %s.\n", evaluation->not_judged[i].why);
     }
-    say_list(not_applicable, evaluation->n_not_applicable, evaluation->not_applicable, terminal);
-    say_list(not_covered, evaluation->n_not_covered, evaluation->not_covered, terminal);
+    print_list(not_applicable, evaluation->n_not_applicable, evaluation->not_applicable, terminal);
+    print_list(not_covered, evaluation->n_not_covered, evaluation->not_covered, terminal);
 }
 
-void cz_apart_write(const CzEvaluation *evaluation, CzMarkup *markup) {
+void cz_not_checked_write(const CzEvaluation *evaluation, CzMarkup *markup) {
     for (int i = 0; i < evaluation->n_not_judged; i++)
         cz_markup_write(markup, "<p>Not judged: %s, %s.</p>\n", evaluation->not_judged[i].train,
                         evaluation->not_judged[i].why);
@@ -81,15 +81,15 @@ void cz_apart_write(const CzEvaluation *evaluation, CzMarkup *markup) {
     write_list(not_covered, evaluation->n_not_covered, evaluation->not_covered, markup);
 }
 
-void cz_screening_say_of(const CzProblem *problem, CzTerminal *terminal) {
+void cz_screening_print(const CzProblem *problem, CzTerminal *terminal) {
     int n;
     const char *const *requirement = cz_not_covered(problem, &n);
     if (n > 0)
         fprintf(terminal->stream, SCREENING, n, n == 1 ? "" : "s", n == 1 ? "is" : "are");
-    say_list(not_covered, n, requirement, terminal);
+    print_list(not_covered, n, requirement, terminal);
 }
 
-void cz_screening_write_of(const CzProblem *problem, CzMarkup *markup) {
+void cz_screening_write(const CzProblem *problem, CzMarkup *markup) {
     int n;
     const char *const *requirement = cz_not_covered(problem, &n);
     if (n > 0)

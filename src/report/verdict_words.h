@@ -21,12 +21,12 @@ const char *cz_screening_remark(CzVerdict verdict, int n_not_covered, char text[
 
 /* What stands apart from the checks, a line each: trains that are not judged, scenarios of the
  * profile that do not apply, requirements of the profile that are not covered. */
-void cz_apart_say(const CzEvaluation *evaluation, CzTerminal *terminal);
-void cz_apart_write(const CzEvaluation *evaluation, CzMarkup *markup);
+void cz_not_checked_print(const CzEvaluation *evaluation, CzTerminal *terminal);
+void cz_not_checked_write(const CzEvaluation *evaluation, CzMarkup *markup);
 
 /* One line for a table or page with many verdicts: how many requirements of the profile of a
  * problem are not covered, and which, so that a pass is one by screening; nothing without one. */
-void cz_screening_say_of(const CzProblem *problem, CzTerminal *terminal);
-void cz_screening_write_of(const CzProblem *problem, CzMarkup *markup);
+void cz_screening_print(const CzProblem *problem, CzTerminal *terminal);
+void cz_screening_write(const CzProblem *problem, CzMarkup *markup);
 
 #endif

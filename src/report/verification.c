@@ -125,7 +125,7 @@ void cz_verification_write_table(const CzReport *report, CzTerminal *terminal) {
     const CzVerification *verification = report->verification;
     CzReportTable methods;
     char text[CZ_FIGURE_ROOM];
-    cz_terminal_say(terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(report->problem));
+    cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(report->problem));
     if (verification->n_value > 0) {
         write_values(verification, terminal);
         fputc('\n', terminal->stream);
@@ -134,11 +134,11 @@ void cz_verification_write_table(const CzReport *report, CzTerminal *terminal) {
         fputc('\n', terminal->stream);
     }
     if (verification->failure[0] != '\0')
-        cz_terminal_say(terminal, CZ_STYLE_BAD, "%s\n", verification->failure);
+        cz_terminal_print(terminal, CZ_STYLE_BAD, "%s\n", verification->failure);
     write_scatter(verification, terminal->stream);
     const bool passes = verification->verdict == CZ_VERDICT_PASS;
     fputs("Verification: ", terminal->stream);
-    cz_terminal_say(terminal, passes ? CZ_STYLE_GOOD : CZ_STYLE_BAD, passes ? "pass" : "FAIL");
+    cz_terminal_print(terminal, passes ? CZ_STYLE_GOOD : CZ_STYLE_BAD, passes ? "pass" : "FAIL");
     fprintf(terminal->stream, " (%d results, limit %s)\n", verification->n_value,
             cz_figure_change(text, verification->limit));
 }

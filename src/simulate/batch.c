@@ -145,7 +145,7 @@ static CzStatus begin(CzBatch *batch, int n_design, const CzPlannedRun *planned,
     if (batch->lanes == NULL)
         return cz_no_memory(error, "the designs");
     CZ_TRY(fill_designs(batch, error));
-    CZ_TRY(cz_batch_lay(batch, error));
+    CZ_TRY(cz_batch_set_up(batch, error));
     for (int design = 0; design < n_design; ++design) {
         CzProgressOfDesign *progress = &batch->design[design];
         if (!isnan(progress->model->duration))
@@ -201,7 +201,7 @@ static CzStatus record_begin(Recording *recording, CzBatch *batch, CzRun *run, C
 
 static CzStatus record_step(Recording *recording, const CzBatch *batch) {
     if (batch->reference == NULL) {
-        cz_watch_look(recording->watch, batch);
+        cz_watch_update(recording->watch, batch);
         cz_budget_add(recording->budget, batch);
     }
     return batch->n_step % recording->every == 0 ? cz_channels_add(&recording->run->channels, batch)
@@ -226,7 +226,7 @@ static CzStatus add_history(const CzBatch *batch) {
         if (cz_history_add(batch, design) != CZ_OK)
             return CZ_STATUS_NO_MEMORY;
         if (batch->keeps_pulses)
-            cz_sequence_look(batch, design);
+            cz_sequence_update(batch, design);
     }
     return CZ_OK;
 }
@@ -256,7 +256,7 @@ static void step_reference(CzBatch *batch, const Recording *recording, double un
             break;
         }
         if (recording != NULL)
-            cz_watch_look(recording->watch, batch);
+            cz_watch_update(recording->watch, batch);
     }
     if (batch->time >= until)
         return;
@@ -307,10 +307,10 @@ static CzStatus march(CzBatch *batch, Recording *recording, CzError *error) {
         const bool is_time =
             batch->n_step % look == 0 || (batch->reference != NULL && batch->design[0].over);
         if (status == CZ_OK && (is_time || batch->n_step == next)) {
-            n_left = cz_ending_look(batch, is_time);
+            n_left = cz_ending_check(batch, is_time);
             status = finish(batch, is_time);
             if (status == CZ_OK && n_left > 0 && n_left < batch->n_design)
-                status = cz_batch_close_up(batch, n_left, error);
+                status = cz_batch_compact(batch, n_left, error);
             next = next_duration(batch);
         }
     }

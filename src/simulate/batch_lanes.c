@@ -29,7 +29,7 @@ static bool lay_tracks(CzBatch *batch) {
             cz_dynamics_lay_track(batch->dynamics, modes, batch->track, step, &batch->laid));
 }
 
-CzStatus cz_batch_lay(CzBatch *batch, CzError *error) {
+CzStatus cz_batch_set_up(CzBatch *batch, CzError *error) {
     const size_t n = (size_t)batch->n_car * (size_t)batch->n_design;
     const size_t n_block = batch->lanes->n_lane / CZ_LANE_BLOCK;
     CzArena *arena = &batch->laid;
@@ -74,7 +74,7 @@ static void move_design(CzBatch *batch, int design, const CzBatch *from, int fro
     batch->design[design] = from->design[from_design];
 }
 
-CzStatus cz_batch_close_up(CzBatch *batch, int n_left, CzError *error) {
+CzStatus cz_batch_compact(CzBatch *batch, int n_left, CzError *error) {
     if (cz_simulate_n_block(batch->design[0].model, n_left) == batch->dynamics->n_block ||
         batch->dynamics->track != NULL || batch->dynamics->elements != NULL)
         return CZ_OK;
@@ -90,7 +90,7 @@ CzStatus cz_batch_close_up(CzBatch *batch, int n_left, CzError *error) {
     for (int design = 0; status == CZ_OK && design < n_left; design++)
         rest.design[design] = batch->design[from[design]];
     if (status == CZ_OK)
-        status = cz_batch_lay(&rest, error);
+        status = cz_batch_set_up(&rest, error);
     for (int design = 0; status == CZ_OK && design < n_left; design++)
         move_design(&rest, design, batch, from[design]);
     if (status != CZ_OK) {

@@ -354,7 +354,7 @@ static void look_at(CzBatch *batch, int design, bool finite) {
     const bool crushes = strokes - progress->plastic > CRUSHING;
     progress->plastic = strokes;
     const bool off = wheels_are_off(batch, design);
-    const CzLoadLeft left = cz_interface_loads_look(batch, design);
+    const CzLoadLeft left = cz_interface_loads_update(batch, design);
     const double initial = progress->initial_energy;
     progress->awaited = awaited(batch, design, off, crushes, &left);
     const bool settled =
@@ -379,7 +379,7 @@ static void look_at(CzBatch *batch, int design, bool finite) {
     check_energies(batch, design);
 }
 
-int cz_ending_look(CzBatch *batch, bool is_time) {
+int cz_ending_check(CzBatch *batch, bool is_time) {
     int n_left = 0;
     const bool finite = is_finite(batch->dynamics);
     for (int design = 0; design < batch->n_design; ++design) {

@@ -89,7 +89,7 @@ static bool still_dissipates(const CzBatch *batch, int design) {
     return batch->time - progress->dissipated_at < CYCLE_TIME;
 }
 
-CzLoadLeft cz_interface_loads_look(const CzBatch *batch, int design) {
+CzLoadLeft cz_interface_loads_update(const CzBatch *batch, int design) {
     const double least = CZ_STORED_SHARE * batch->design[design].initial_energy;
     CzLoadLeft left = {.energy = 0.0};
     double oscillating = 0.0;

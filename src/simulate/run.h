@@ -156,7 +156,7 @@ bool cz_history_pulse(const CzBatch *batch, int car, int design, CzArena *arena,
 typedef struct CzSequence CzSequence;
 CzSequence *cz_sequence_begin(const CzBatch *batch, CzArena *arena);
 void cz_sequence_move(CzBatch *batch, size_t lane, const CzBatch *from, size_t from_lane);
-void cz_sequence_look(const CzBatch *batch, int design);
+void cz_sequence_update(const CzBatch *batch, int design);
 void cz_sequence_judge(const CzBatch *batch, int interface, int design, int side, int n_element,
                        CzElementResult *element);
 
@@ -224,7 +224,7 @@ typedef struct CzLoadLeft {
 bool cz_interface_can_open(const CzBatch *batch, int interface, int design);
 CzInterfaceLoad *cz_interface_loads_begin(const CzBatch *batch, CzArena *arena);
 void cz_interface_load_move(CzBatch *batch, size_t lane, const CzBatch *from, size_t from_lane);
-CzLoadLeft cz_interface_loads_look(const CzBatch *batch, int design);
+CzLoadLeft cz_interface_loads_update(const CzBatch *batch, int design);
 
 /* ending.c: whether a design is examined after this step, which is one after which all are or the
  * end of its own duration. */
@@ -232,13 +232,13 @@ static inline bool cz_ending_is_due(const CzBatch *batch, int design, bool is_ti
     return is_time || batch->design[design].last == batch->n_step;
 }
 /* Examines the designs; returns how many are not over. */
-int cz_ending_look(CzBatch *batch, bool is_time);
+int cz_ending_check(CzBatch *batch, bool is_time);
 
 /* batch_lanes.c: creates the dynamics, the tracks and all other data of filled lanes. */
-CZ_MUST_CHECK CzStatus cz_batch_lay(CzBatch *batch, CzError *error);
+CZ_MUST_CHECK CzStatus cz_batch_set_up(CzBatch *batch, CzError *error);
 /* Takes the designs that are over out of the lanes where the other n_left > 0 then need fewer
  * blocks; these are counted anew. */
-CZ_MUST_CHECK CzStatus cz_batch_close_up(CzBatch *batch, int n_left, CzError *error);
+CZ_MUST_CHECK CzStatus cz_batch_compact(CzBatch *batch, int n_left, CzError *error);
 
 /* summary.c */
 CZ_MUST_CHECK CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run);
@@ -286,7 +286,7 @@ const CzVehicleBudget *cz_budget_result(const CzBudget *budget); /* (n_car) */
 /* watch.c: events of a single design. */
 typedef struct CzWatch CzWatch;
 CzWatch *cz_watch_begin(const CzBatch *batch, CzArena *arena);
-void cz_watch_look(CzWatch *watch, const CzBatch *batch);
+void cz_watch_update(CzWatch *watch, const CzBatch *batch);
 const CzEvent *cz_watch_events(const CzWatch *watch, int *n_event);
 
 #endif

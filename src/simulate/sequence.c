@@ -79,7 +79,7 @@ static void look_at_side(const CzBatch *batch, size_t lane, int side) {
     }
 }
 
-void cz_sequence_look(const CzBatch *batch, int design) {
+void cz_sequence_update(const CzBatch *batch, int design) {
     for (int i = 0; i + 1 < batch->n_car; ++i) {
         const size_t lane = cz_lane(batch, i, design);
         CzSequence *sequence = &batch->sequence[lane];

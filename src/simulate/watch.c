@@ -248,7 +248,7 @@ static void list_events(CzWatch *list, const CzBatch *batch) {
     set_limits(list);
 }
 
-void cz_watch_look(CzWatch *list, const CzBatch *batch) {
+void cz_watch_update(CzWatch *list, const CzBatch *batch) {
     bool any_beyond = false;
     for (int i = 0; i < batch->dynamics->n_block && !any_beyond; ++i)
         any_beyond =

@@ -63,7 +63,7 @@ void cz_mistake_list(CzMistakes *mistakes, const CzNode *place, const CzTrail *t
                      const char *format, va_list arguments) {
     CzError error = {.status = CZ_STATUS_INPUT};
     cz_error_place(&error, place);
-    cz_error_say(&error, format, arguments);
+    cz_error_format(&error, format, arguments);
     add(mistakes, &error, place->source->order, trail);
 }
 

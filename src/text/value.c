@@ -11,7 +11,7 @@
 /* Tolerance at the ends of a range for rounding in the conversion of units. */
 static const double ROUNDING = 1e-12;
 
-bool cz_value_is_there(CzValue value) {
+bool cz_value_exists(CzValue value) {
     const CzNode *node = value.node;
     if (node->kind != CZ_NODE_TEXT) {
         cz_mistake(value.mistakes, node, value.trail, "'%s' needs one value, but this is %s",
@@ -27,7 +27,7 @@ bool cz_value_is_there(CzValue value) {
 
 /* Whether a node is a value without quotes. */
 static bool is_bare(CzValue value, const char *what) {
-    if (!cz_value_is_there(value))
+    if (!cz_value_exists(value))
         return false;
     if (value.node->quoted)
         cz_mistake(value.mistakes, value.node, value.trail,
@@ -97,7 +97,7 @@ bool cz_value_flag(CzValue value, bool *flag) {
 }
 
 const char *cz_value_text(CzValue value) {
-    if (!cz_value_is_there(value))
+    if (!cz_value_exists(value))
         return NULL;
     const char *text = value.node->text;
     if (text[strspn(text, " ")] == '\0') {

@@ -15,7 +15,7 @@ typedef struct CzValue {
 } CzValue;
 
 /* Whether the node has a value; adds a mistake when not. */
-bool cz_value_is_there(CzValue value);
+bool cz_value_exists(CzValue value);
 
 /* A number in a unit between two limits [SI]; NaN and false with a mistake when it is not a number.
  * A stand-in for a number leaves `number` unchanged. */

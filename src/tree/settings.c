@@ -135,7 +135,7 @@ static int rank_of(const CzTree *tree, const char *path) {
     return depth < LAST_RANK ? depth : LAST_RANK - 1;
 }
 
-static void tell_nothing(CzReader *reader, const CzSetting *setting) {
+static void refuse_without_place(CzReader *reader, const CzSetting *setting) {
     cz_mistake(&reader->mistakes, setting->place, NULL, "'%s' names no place of this problem",
                setting->path);
 }
@@ -158,7 +158,7 @@ static void apply(CzReader *reader, CzTree *tree, const CzSetting *setting, int 
         }
     for (int i = 0; i < n_setting; i++)
         if (n_put[i] == 0 && !setting[i].is_late)
-            tell_nothing(reader, &setting[i]);
+            refuse_without_place(reader, &setting[i]);
 }
 
 CzTree cz_settings_apply_first(CzReader *reader, const CzTree *tree, const CzSetting *setting,
@@ -193,5 +193,5 @@ void cz_settings_apply_late(CzReader *reader, CzTree *tree, const CzSetting *set
     for (int i = 0; i < n_setting; i++)
         if (setting[i].is_late &&
             cz_path_put(reader, tree, setting[i].path, setting[i].place, &setting[i].put, 0) == 0)
-            tell_nothing(reader, &setting[i]);
+            refuse_without_place(reader, &setting[i]);
 }

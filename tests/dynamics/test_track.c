@@ -38,7 +38,7 @@ static void a_load_at_rest_deflects_the_track_as_its_statics(void **state) {
                 const double at[4] = {place, 0.0, 0.0, 0.0}, load[4] = {70e3, 0.0, 0.0, 0.0};
                 CzTrackMotion *track = track_under(at, load, cut[c], 0, step, &arena);
                 double deflection[4], flexibility[4];
-                cz_track_look(track, 0, at, deflection, flexibility);
+                cz_track_deflection(track, 0, at, deflection, flexibility);
                 const double exact =
                     cz_ring_flexibility(&track->modes->seats, track->modes->n_seat, place / 0.6);
                 assert_near(flexibility[0] * load[0] - deflection[0], exact * load[0], 2e-5, 0.0);
@@ -56,8 +56,8 @@ static void wheels_interact_as_in_the_statics(void **state) {
     CzTrackMotion *track = track_under(usual_place, load, 1500.0, 0, 1e-4, &arena);
     CzTrackMotion *fine = track_under(usual_place, load, 20e3, 0, 1e-6, &arena);
     double usual[4], all[4], flexibility[4];
-    cz_track_look(track, 0, usual_place, usual, flexibility);
-    cz_track_look(fine, 0, usual_place, all, flexibility);
+    cz_track_deflection(track, 0, usual_place, usual, flexibility);
+    cz_track_deflection(fine, 0, usual_place, all, flexibility);
     for (int wheel = 1; wheel < 4; ++wheel)
         assert_near(usual[wheel], all[wheel], 0.0, 2e-3 * 0.45e-3);
     cz_arena_free(&arena);
@@ -76,7 +76,7 @@ static double energy_gap(double cut, double step) {
     const double rest_energy = cz_track_energy(track, 0);
     double last = cz_track_loss(track, 0);
     assert_near(last, 0.0, 0.0, 1e-9); /* [W] at rest */
-    cz_track_look(track, 0, usual_place, deflection, flexibility);
+    cz_track_deflection(track, 0, usual_place, deflection, flexibility);
     for (long n = 0; n < n_step; ++n) {
         const double s = (double)n / (double)n_step, bump = 16.0 * s * s * (1.0 - s) * (1.0 - s);
         const double force[4] = {-load[0], -load[1] * (1.0 + 2.0 * bump), -load[2],
@@ -122,8 +122,8 @@ static void a_longer_window_changes_nothing(void **state) {
             place[wheel] = usual_place[wheel] + 20.0 * t;
             force[wheel] = -load[wheel] * (1.0 + (wheel % 2 == 0 ? beat : -0.5 * beat));
         }
-        cz_track_look(usual, 0, place, z[0], flexibility);
-        cz_track_look(longer, 0, place, z[1], flexibility);
+        cz_track_deflection(usual, 0, place, z[0], flexibility);
+        cz_track_deflection(longer, 0, place, z[1], flexibility);
         for (int wheel = 0; wheel < 4; ++wheel) {
             largest = fmax(largest, fabs(z[0][wheel] - z[1][wheel]));
             moved = fmax(moved, fabs(z[1][wheel]));
@@ -161,7 +161,7 @@ static void runge_kutta(CzTrackMotion *track, double t, double h, double *y, dou
         for (size_t i = 0; i < n; ++i)
             stage[i] = y[i] + share[part] * h * rate[i];
         cz_track_set_state(track, 0, stage);
-        cz_track_look(track, 0, place, z, flexibility);
+        cz_track_deflection(track, 0, place, z, flexibility);
         cz_track_rate(track, 0, force, rate, rail_rate);
         for (size_t i = 0; i < n; ++i)
             sum[i] += weight[part] * h / 6.0 * rate[i];
@@ -187,9 +187,9 @@ static void a_solver_of_differential_equations_finds_the_same(void **state) {
     for (int k = 0; k < 300; ++k) {
         double stepped[4], solved[4], quick[4], flexibility[4], force[4];
         press(k * track->step, place, load);
-        cz_track_look(track, 0, place, stepped, quick);
+        cz_track_deflection(track, 0, place, stepped, quick);
         cz_track_set_state(other, 0, y);
-        cz_track_look(other, 0, place, solved, flexibility);
+        cz_track_deflection(other, 0, place, solved, flexibility);
         for (int wheel = 0; wheel < 4; ++wheel) {
             force[wheel] = -load[wheel];
             largest = fmax(largest, fabs((stepped[wheel] - quick[wheel] * load[wheel]) -
@@ -326,8 +326,8 @@ static void modes_and_elements_have_equal_deflections(void **state) {
             place[wheel] = usual_place[wheel] + 20.0 * n * step;
             force[wheel] = -load[wheel] * (1.0 + 2.0 * pulse);
         }
-        cz_track_look(track, 0, place, z, flexibility);
-        cz_elements_look(elements, 0, place, point);
+        cz_track_deflection(track, 0, place, z, flexibility);
+        cz_elements_deflection(elements, 0, place, point);
         for (int wheel = 0; wheel < 4; ++wheel) {
             const double of_modes = z[wheel] + flexibility[wheel] * force[wheel];
             const double of_elements = point[wheel].z + point[wheel].flexibility * force[wheel];

@@ -82,12 +82,13 @@ typedef struct Loop {
     bool cuts_messages, cuts_requests; /* breaks them off in the middle */
 } Loop;
 
-static CzStatus tell_workers(const CzExecutor *executor, const CzBytes *message, CzError *error) {
+static CzStatus broadcast_to_workers(const CzExecutor *executor, const CzBytes *message,
+                                     CzError *error) {
     Loop *loop = executor->data;
     const CzBytes sent = {loop->cuts_messages ? message->n / 2 : message->n, message->byte};
     (void)error;
     for (int w = 0; w < N_WORKER; w++)
-        cz_worker_learn(loop->worker[w], &sent);
+        cz_worker_receive(loop->worker[w], &sent);
     loop->n_message++;
     return CZ_OK;
 }
@@ -121,7 +122,7 @@ static CzExecutor begin_loop(Loop *loop) {
     return (CzExecutor){.n_place = 3,
                         .submit = take_nothing,
                         .wait = ask_workers,
-                        .tell = tell_workers,
+                        .broadcast = broadcast_to_workers,
                         .data = loop};
 }
 

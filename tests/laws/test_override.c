@@ -72,7 +72,7 @@ static void nearest_whole_numbers(void **state) {
     static const double value[] = {0.0, 0.49, -0.49, 0.51, -0.51, 2.5, 1e6 + 0.4, -3.6};
     static const double whole[] = {0, 0, 0, 1, -1, 2, 1e6, -4};
     for (size_t i = 0; i < sizeof value / sizeof *value; i++)
-        assert_near(cz_nearest_whole(value[i]), whole[i], 0.0, 0.0);
+        assert_near(cz_nearest_integer(value[i]), whole[i], 0.0, 0.0);
 }
 
 static double superstructure_force(Element *element, double x) {

@@ -140,7 +140,7 @@ static void statics_with(double cut, double place, double *of_modes, double *of_
     CzTrackMotion *track = cz_track_motion_create(modes, 1e-6, 1, &arena);
     assert_non_null(track);
     assert_true(cz_track_lay(track, 0, at, load, &arena));
-    cz_track_look(track, 0, at, deflection, flexibility);
+    cz_track_deflection(track, 0, at, deflection, flexibility);
     const double exact =
         LOAD * cz_ring_flexibility(&modes->seats, modes->n_seat, place / modes->seats.spacing);
     *of_modes = -deflection[0] / exact;
@@ -186,7 +186,7 @@ void rows_of_running_tracks(Rows *rows) {
         CzTrackMotion *track = cz_track_motion_create(modes, 1e-4, 1, &arena);
         assert_non_null(track);
         assert_true(cz_track_lay(track, 0, at, load, &arena));
-        cz_track_look(track, 0, at, deflection, flexibility);
+        cz_track_deflection(track, 0, at, deflection, flexibility);
         const double down = flexibility[0] * load[0] - deflection[0];
         ROW(rows, "mm", 1e3 * down, known[i], 5e-3, 0.0,
             "production track, 70 kN a rail %s: deflection", where);
@@ -197,7 +197,7 @@ void rows_of_running_tracks(Rows *rows) {
         assert_non_null(elements);
         assert_true(cz_elements_lay(elements, 0, at, load, &arena));
         CzRailPoint point[4];
-        cz_elements_look(elements, 0, at, point);
+        cz_elements_deflection(elements, 0, at, point);
         ROW(rows, "mm", 1e3 * (point[0].flexibility * load[0] - point[0].z), known[i], 5e-3, 0.0,
             "finite elements, 70 kN a rail %s: deflection", where);
         const CzElementsUnder *under = &elements->under[0];
@@ -327,7 +327,7 @@ void rows_of_element_statics(Rows *rows) {
             assert_non_null(elements);
             assert_true(cz_elements_lay(elements, 0, place, load, &arena));
             CzRailPoint point[4];
-            cz_elements_look(elements, 0, place, point);
+            cz_elements_deflection(elements, 0, place, point);
             const double exact = load[0] * cz_ring_flexibility(&seats, 62, x / 0.6);
             const double found = point[0].flexibility * load[0] - point[0].z;
             largest = fmax(largest, fabs(found / exact - 1.0));
@@ -359,7 +359,7 @@ static void impact_on_modes(double cut, double way[N_IMPACT]) {
     assert_non_null(track);
     assert_true(cz_track_lay(track, 0, at, none, &arena));
     double deflection[4], flexibility[4];
-    cz_track_look(track, 0, at, deflection, flexibility);
+    cz_track_deflection(track, 0, at, deflection, flexibility);
     for (int i = 0; i < N_IMPACT; ++i) {
         const double force[4] = {-impact(i), 0.0, 0.0, 0.0};
         way[i] = flexibility[0] * impact(i) - cz_track_at(track, &track->under[0], 0).z;
@@ -380,7 +380,7 @@ static void impact_on_elements(int nodes, double way[N_IMPACT]) {
     for (int i = 0; i < N_IMPACT; ++i) {
         const double force[4] = {-impact(i), 0.0, 0.0, 0.0};
         CzRailPoint point[4];
-        cz_elements_look(elements, 0, at, point);
+        cz_elements_deflection(elements, 0, at, point);
         way[i] = point[0].flexibility * impact(i) - point[0].z;
         memcpy(elements->under[0].force, force, sizeof force);
         cz_elements_step(elements, 0);

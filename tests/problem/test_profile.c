@@ -22,7 +22,7 @@ static const CzTrain *train_ahead(const CzProblem *problem, const char *scenario
 
 static const CzAskedScenario *find_asked(const CzProblem *problem, const char *name) {
     int n_asked = 0;
-    const CzAskedScenario *asked = cz_problem_asked(problem, &n_asked);
+    const CzAskedScenario *asked = cz_problem_profile_scenarios(problem, &n_asked);
     for (int i = 0; i < n_asked; i++)
         if (strcmp(asked[i].scenario->name, name) == 0)
             return &asked[i];

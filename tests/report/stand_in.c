@@ -122,7 +122,7 @@ const CzSource *cz_problem_measured_file(const CzProblem *problem, int number, s
     (void)problem, (void)number, (void)room, (void)name;
     return NULL;
 }
-void cz_problem_write_resolved_there(const CzProblem *problem, FILE *stream) {
+void cz_problem_write_resolved_in_folder(const CzProblem *problem, FILE *stream) {
     cz_problem_write_resolved(problem, stream);
 }
 void cz_problem_write_resolved(const CzProblem *problem, FILE *stream) {

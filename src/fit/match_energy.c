@@ -30,7 +30,7 @@ static const char *write_sentence(CzFit *fit, const char *format, va_list argume
                               n < (int)sizeof text ? (size_t)n : sizeof text - 1);
 }
 
-void cz_fit_note_down(CzFit *fit, const char *format, ...) {
+void cz_fit_add_note(CzFit *fit, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
     if (fit->summary.n_note < CZ_FIT_MOST_NOTES)
@@ -96,7 +96,7 @@ void cz_fit_scale_forces(CzStaged *staged, int stage, double factor) {
 
 /* Newton's method with a slope by differences: the energy is almost linear in a force. Returns the
  * factor on the forces; stage -1 is all stages. */
-static double settle_energy(CzFit *fit, CzStaged *staged, int stage) {
+static double match_energy(CzFit *fit, CzStaged *staged, int stage) {
     const CzStaged found = *staged;
     double factor = 1.0;
     for (int i = 0; i < 20; i++) {
@@ -122,7 +122,7 @@ static int longest_of(const CzStaged *staged) {
     return longest;
 }
 
-void cz_fit_let_rise(CzStaged *staged) {
+void cz_fit_make_rising(CzStaged *staged) {
     double force = staged->preload;
     for (int i = 0; i < staged->n_stage; i++)
         force = staged->stage[i].force = fmax(staged->stage[i].force, force);
@@ -141,7 +141,7 @@ CzStatus cz_fit_no_law(const CzFit *fit, CzError *error, const char *why) {
     return status;
 }
 
-CzStatus cz_fit_settle(CzFit *fit, CzStaged *staged, const CzBranch *branch, CzError *error) {
+CzStatus cz_fit_match_energy(CzFit *fit, CzStaged *staged, const CzBranch *branch, CzError *error) {
     const bool must_rise = staged == &fit->buffer;
     round_strokes(staged);
     for (int i = 0; i < 3; i++) { /* the elastic part depends slightly on the last force */
@@ -151,12 +151,12 @@ CzStatus cz_fit_settle(CzFit *fit, CzStaged *staged, const CzBranch *branch, CzE
             *staged = found;
     }
     if (must_rise)
-        cz_fit_let_rise(staged);
+        cz_fit_make_rising(staged);
     round_forces(staged);
-    const double factor = settle_energy(fit, staged, must_rise ? -1 : longest_of(staged));
+    const double factor = match_energy(fit, staged, must_rise ? -1 : longest_of(staged));
     if (staged->trigger < staged->stage[0].force) { /* it is not a peak any more */
         staged->trigger = NAN;
-        return cz_fit_settle(fit, staged, branch, error);
+        return cz_fit_match_energy(fit, staged, branch, error);
     }
     if (fabs(factor - 1.0) <= FAR_OFF)
         return CZ_OK;

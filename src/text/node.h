@@ -53,6 +53,7 @@ struct CzNode {
     CzEntry *entry;  /* of a list or mapping (n_entry) */
     bool is_refused; /* a mistake about it has been reported, so it is skipped */
     bool is_partial; /* a mapping whose base or part is missing, so that keys may be missing */
+    bool is_removal; /* a null that removed a key beside a `use`, and that of the part too if any */
     int match;       /* > 0: a stand-in for a number, at the match-th place of a path
                         (problem/find.c) */
 };

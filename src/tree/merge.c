@@ -73,6 +73,8 @@ static CzNode *copy_base(CzArena *arena, const CzNode *base, const CzTrail *base
 static bool merge_entry(CzArena *arena, CzNode *merged, CzEntry *like, const CzEntry *over,
                         const CzTrail *over_trail, bool by_name) {
     const CzTrail *trail = cz_entry_trail(over, over_trail);
+    if (like == NULL && over->value->is_removal) /* the part does not have the key */
+        return true;
     if (like == NULL) {
         merged->entry[merged->n_entry] = *over;
         merged->entry[merged->n_entry++].trail = trail;
@@ -84,14 +86,31 @@ static bool merge_entry(CzArena *arena, CzNode *merged, CzEntry *like, const CzE
     return like->value != NULL;
 }
 
+/* Removes an entry that is null in `over`. Beside a `use`, which is merged later, the null stays,
+ * because the part may have the key, too. */
+static bool remove_entry(CzArena *arena, CzNode *merged, CzEntry *like, const CzEntry *over,
+                         const CzTrail *over_trail) {
+    if (cz_node_find(merged, "use") == NULL) {
+        *like = merged->entry[--merged->n_entry];
+        return true;
+    }
+    CzNode *removal = cz_node_copy(arena, over->value, 0);
+    if (removal == NULL)
+        return false;
+    removal->is_removal = true;
+    *like = (CzEntry){over->key, removal, cz_entry_trail(over, over_trail)};
+    return true;
+}
+
 static const CzNode *merge_mappings(CzArena *arena, const CzNode *base, const CzTrail *base_trail,
                                     const CzNode *over, const CzTrail *over_trail, bool by_name) {
     CzNode *merged = copy_base(arena, base, base_trail, over);
     for (int i = 0; merged != NULL && i < over->n_entry; i++) {
-        CzEntry *like = cz_find_same_stem(merged, over->entry[i].key->text);
-        if (like != NULL && cz_node_is_null(over->entry[i].value))
-            *like = merged->entry[--merged->n_entry];
-        else if (!merge_entry(arena, merged, like, &over->entry[i], over_trail, by_name))
+        const CzEntry *entry = &over->entry[i];
+        CzEntry *like = cz_find_same_stem(merged, entry->key->text);
+        const bool is_removed = like != NULL && cz_node_is_null(entry->value);
+        if (is_removed ? !remove_entry(arena, merged, like, entry, over_trail)
+                       : !merge_entry(arena, merged, like, entry, over_trail, by_name))
             return NULL;
     }
     return merged;

@@ -125,6 +125,22 @@ static void null_removes_a_key_of_the_part(void **state) {
     cz_problem_free(problem);
 }
 
+/* An end takes what is not given from its part, which is merged after the keys beside `use`. */
+static void null_removes_a_key_that_is_given_beside_a_part_and_in_it(void **state) {
+    (void)state;
+    CzProblem *problem = read_good_text(
+        "extends: full.yaml\n"
+        "parts:\n"
+        "  own-cab: {use: cab-car, rear: {use: cab-end, damping_kN_s_m: 70, anti_climber: {count: "
+        "1}}}\n"
+        "  bare-cab: {use: own-cab, rear: {damping_kN_s_m: null, anti_climber: null}}\n"
+        "trains: [{name: A, vehicles: [{name: A4, use: bare-cab}]}]\n");
+    assert_false(find_vehicle(problem, "A4")->rear.anti_climber.given);
+    assert_true(find_vehicle(problem, "A4")->rear.coupler.given);
+    assert_true(find_vehicle(problem, "A1")->rear.anti_climber.given);
+    cz_problem_free(problem);
+}
+
 static void a_value_in_another_unit_overrides_the_same_stem(void **state) {
     (void)state;
     CzProblem *problem = read_good_text("extends: rigid.yaml\n"
@@ -390,6 +406,7 @@ int main(void) {
         cmocka_unit_test(an_overlay_merges_records_and_named_items_and_replaces_the_rest),
         cmocka_unit_test(an_overlay_can_name_vehicles_that_have_no_name),
         cmocka_unit_test(null_removes_a_key_of_the_part),
+        cmocka_unit_test(null_removes_a_key_that_is_given_beside_a_part_and_in_it),
         cmocka_unit_test(a_value_in_another_unit_overrides_the_same_stem),
         cmocka_unit_test(a_setting_equals_the_typed_value),
         cmocka_unit_test(a_setting_of_a_list_item_leaves_the_part_to_others),

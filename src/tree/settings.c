@@ -26,9 +26,8 @@ static char *join_lines(int n_set, const char *const *set, size_t *n_byte) {
     return text;
 }
 
-/* A value as typed: text in quotes stays text. */
-static const CzNode *value_of(CzReader *reader, const char *text, const CzNode *place) {
-    const size_t n = strlen(text);
+/* The n characters from `text` as a value: in quotes they stay text. */
+static const CzNode *text_of(CzReader *reader, const char *text, size_t n, const CzNode *place) {
     const bool is_quoted = n >= 2 && (text[0] == '"' || text[0] == '\'') && text[n - 1] == text[0];
     CzNode *node = cz_arena_allocate(&reader->arena, 1, sizeof *node);
     if (node == NULL)
@@ -40,6 +39,38 @@ static const CzNode *value_of(CzReader *reader, const char *text, const CzNode *
         (void)cz_text_one_line(copy, strlen(copy));
     node->text = copy;
     return copy != NULL ? node : NULL;
+}
+
+/* A list of n characters, as "[a, 'b, c']", without brackets in its texts. */
+static const CzNode *list_of(CzReader *reader, const char *text, size_t n, const CzNode *place) {
+    CzNode empty = *place;
+    empty.kind = CZ_NODE_LIST;
+    CzNode *list = cz_node_copy(&reader->arena, &empty, (int)n);
+    for (size_t at = 1; list != NULL && at + 1 < n;) {
+        const size_t begin = at + strspn(text + at, " ");
+        const bool is_quoted = text[begin] == '"' || text[begin] == '\'';
+        const char *close = is_quoted ? memchr(text + begin + 1, text[begin], n - begin - 1) : NULL;
+        size_t length =
+            close != NULL ? (size_t)(close - text) - begin + 1 : strcspn(text + begin, ",]");
+        CzNode there = *place;
+        there.column += (int)begin;
+        at = begin + length;
+        at += strcspn(text + at, ",]") + 1;
+        while (length > 0 && text[begin + length - 1] == ' ')
+            length--;
+        const CzNode *item = text_of(reader, text + begin, length, &there);
+        if (item == NULL)
+            return NULL;
+        list->entry[list->n_entry++] = (CzEntry){.value = item};
+    }
+    return list;
+}
+
+/* A value as typed: a text, or a list of texts. */
+static const CzNode *value_of(CzReader *reader, const char *text, const CzNode *place) {
+    const size_t n = strlen(text);
+    const bool is_list = n >= 2 && text[0] == '[' && strcspn(text + 1, "[]{}") == n - 2;
+    return (is_list && text[n - 1] == ']' ? list_of : text_of)(reader, text, n, place);
 }
 
 /* Cuts "path=value". */
@@ -88,6 +119,14 @@ static void refuse_twice(CzReader *reader, const CzNode *own, int i) {
         }
 }
 
+/* Whether a node is a value or a list of values. */
+static bool is_settable(const CzNode *node) {
+    bool is = node->kind != CZ_NODE_MAPPING;
+    for (int i = 0; is && node->kind == CZ_NODE_LIST && i < node->n_entry; i++)
+        is = node->entry[i].value->kind == CZ_NODE_TEXT;
+    return is;
+}
+
 const CzSetting *cz_settings_gather(CzReader *reader, const CzNode *root, int n_set,
                                     const char *const *set, int *n_setting) {
     const CzEntry *own = cz_node_find(root, "set");
@@ -104,12 +143,12 @@ const CzSetting *cz_settings_gather(CzReader *reader, const CzNode *root, int n_
     for (int i = 0; i < n_own; i++) {
         const CzEntry *entry = &own->value->entry[i];
         refuse_twice(reader, own->value, i);
-        if (entry->value->kind == CZ_NODE_TEXT)
+        if (is_settable(entry->value))
             setting[(*n_setting)++] =
                 (CzSetting){entry->key->text, entry->key, {.value = entry->value}, false};
         else
             cz_mistake(&reader->mistakes, entry->value, NULL,
-                       "'%s' is set to %s; it needs one value", entry->key->text,
+                       "'%s' is set to %s; it needs a value or a list of values", entry->key->text,
                        cz_node_what(entry->value));
     }
     if (n_set > 0)

@@ -230,9 +230,14 @@ static void paths_lead_into_what_the_profile_adds(void **state) {
 static void settings_of_checks_decide_what_is_added(void **state) {
     (void)state;
     static const char *const set[] = {"checks.category=metro"};
+    static const char *const listed[] = {"checks.scenarios=[ wagon, 'alike' ]"};
     static const char *const line_speed[] = {"checks.line_speed_km_h=90"};
     CzProblem *problem = read_good("single.yaml", 1, set), *other = NULL;
     assert_int_equal(cz_problem_n_scenario(problem), 2);
+    cz_problem_free(problem);
+    problem = read_good("single.yaml", 1, listed);
+    assert_int_equal(cz_problem_n_scenario(problem), 3);
+    assert_int_equal(find_asked(problem, "crossing")->standing, CZ_STANDING_NOT_SELECTED);
     cz_problem_free(problem);
     problem = read_good("single.yaml", 0, NULL);
     assert_int_equal(cz_problem_read_with(problem, 1, line_speed, &other, NULL), CZ_OK);

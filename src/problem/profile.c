@@ -83,7 +83,7 @@ CzProfileFile cz_profile_load(CzProblem *problem, const char *path, const CzNode
         return file;
     bind(problem, file.top, whole);
     const CzRules rules = cz_rules_of(problem);
-    cz_rules_check_profile(&rules, whole);
+    cz_rules_check_profile(&rules, whole, path);
     return file;
 }
 

@@ -59,7 +59,7 @@ void cz_rules_check_design(const CzRules *rules, CzTargets *targets);
 void cz_rules_check_confidence(const CzRules *rules, const char *const *confidence);
 /* A profile as written, and the scenarios of one category with the values of those they are like.
  */
-void cz_rules_check_profile(const CzRules *rules, const CzProfile *profile);
+void cz_rules_check_profile(const CzRules *rules, const CzProfile *profile, const char *path);
 void cz_rules_check_profile_scenarios(const CzRules *rules, const CzProfile *profile);
 void cz_rules_check_fit(const CzRules *rules);
 

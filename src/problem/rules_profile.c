@@ -78,7 +78,21 @@ static void check_limits(const CzRules *rules, const CzProfile *profile) {
     }
 }
 
-void cz_rules_check_profile(const CzRules *rules, const CzProfile *profile) {
+/* A profile is found by the name of its file, and results name it by its own. */
+static void check_name(const CzRules *rules, const CzProfile *profile, const char *path) {
+    const char *slash = strrchr(path, '/'), *file = slash != NULL ? slash + 1 : path;
+    const char *dot = strrchr(file, '.');
+    const int n = dot != NULL ? (int)(dot - file) : (int)strlen(file);
+    if (profile->name != NULL &&
+        ((int)strlen(profile->name) != n || memcmp(profile->name, file, (size_t)n) != 0))
+        cz_rule_broken(rules, &profile->name,
+                       "the profile is named '%.96s', but its file %.120s" CZ_HELP
+                       "write name: %.*s, or rename the file",
+                       profile->name, file, n, file);
+}
+
+void cz_rules_check_profile(const CzRules *rules, const CzProfile *profile, const char *path) {
+    check_name(rules, profile, path);
     for (int i = 0; i < profile->n_categories; i++)
         for (int k = 0; k < i; k++)
             if (profile->categories[i].name != NULL && profile->categories[k].name != NULL &&

@@ -242,10 +242,26 @@ static bool lacks_profile(const CzRules *rules) {
     return rules->input->checks.profile != NULL && rules->problem->whole_profile == NULL;
 }
 
+static void report_one_train(const CzRules *rules) {
+    static const char one[] = "a collision needs two trains, but there is one";
+    const CzInput *input = rules->input;
+    const CzProfile *whole = rules->problem->whole_profile;
+    if (whole != NULL)
+        cz_rule_broken(rules, &input->trains, "%s, and profile '%.96s' adds no partner: %s", one,
+                       input->checks.profile,
+                       whole->n_scenarios == 0 ? "it has limits and no scenarios"
+                                               : "none of its scenarios is run");
+    else
+        cz_rule_broken(rules, &input->trains,
+                       "%s" CZ_HELP "a profile with scenarios, named in 'checks', adds partners; "
+                       "'crushzone profile list' counts them",
+                       one);
+}
+
 void cz_rules_check_trains(const CzRules *rules) {
     const CzInput *input = rules->input;
     if (input->n_trains == 1 && !lacks_profile(rules))
-        cz_rule_broken(rules, &input->trains, "a collision needs two trains, but there is one");
+        report_one_train(rules);
     for (int i = 0; i < input->n_trains; i++)
         check_train(rules, &input->trains[i]);
 }

@@ -34,6 +34,26 @@ static const char *key_for(const CzProblem *problem, const CzScenario *scenario,
     return NULL;
 }
 
+/* The key of the scenario that is also the key of another one whose number a path names; NULL for
+ * none, and where the scenario takes the number from that one by `like`. */
+static const char *key_beside(const CzProblem *problem, const CzScenario *scenario,
+                              const double *field) {
+    const CzInput *input = &problem->input;
+    for (int i = 0; i < input->n_scenarios; i++) {
+        const CzScenario *other = &input->scenarios[i];
+        const char *at = (const char *)field, *begin = (const char *)other;
+        if (other == scenario || at < begin || at >= (const char *)(other + 1))
+            continue;
+        const CzPlace *its = cz_places_find(&problem->places, field);
+        const CzPlace *own =
+            cz_places_find(&problem->places, (const char *)scenario + (at - begin));
+        const bool is_set = own != NULL && own->key != NULL;
+        const bool is_taken = scenario->like != NULL && is_set && own->value == its->value;
+        return is_set && !is_taken ? own->node->text : NULL;
+    }
+    return NULL;
+}
+
 /* Whether a number is one of a train that the scenario does not run. */
 static bool is_of_other_train(const CzProblem *problem, const CzScenario *scenario,
                               const CzTarget *target) {
@@ -77,6 +97,8 @@ const char *cz_problem_replaced_by(const CzProblem *problem, int scenario,
     for (int i = 0; i < targets->n; i++) {
         const CzTarget *target = &targets->target[i];
         const char *key = key_for(problem, its, target->field);
+        if (key == NULL)
+            key = key_beside(problem, its, target->field);
         by = key != NULL                                    ? key
              : is_of_other_train(problem, its, target)      ? "trains"
              : is_changed(problem, scenario, target->field) ? "changes"

@@ -259,6 +259,8 @@ static const char scenarios[] =
     "scenarios:\n"
     "  - {name: as-written}\n"
     "  - {name: own-speed, speed_km_h: 12}\n"
+    "  - {name: like-it, like: own-speed}\n"
+    "  - {name: like-it-but, like: own-speed, speed_km_h: 14}\n"
     "  - {name: partner, partner_speed_km_h: -12, height_offset_mm: 10, friction: 0.2}\n"
     "  - {name: other, trains: [A, C]}\n"
     "  - {name: changed, changes: [{path: trains.B.vehicles.B1.mass_t, value: 40}]}\n"
@@ -292,7 +294,9 @@ static void finds_unreached(const char *path, double from, double to, const char
 
 static void a_scenario_that_sets_the_value_itself_is_named(void **state) {
     (void)state;
-    finds_unreached("trains.A.speed_km_h", 10, 20, "own-speed:speed_km_h ");
+    finds_unreached("trains.A.speed_km_h", 10, 20,
+                    "own-speed:speed_km_h like-it:speed_km_h like-it-but:speed_km_h ");
+    finds_unreached("scenarios.own-speed.speed_km_h", 10, 20, "like-it-but:speed_km_h ");
     finds_unreached("trains.B.speed_km_h", -10, -20, "partner:partner_speed_km_h other:trains ");
     finds_unreached("trains.B.height_offset_mm", 0, 20, "partner:height_offset_mm other:trains ");
     finds_unreached("simulation.adhesion.friction", 0.1, 0.3, "partner:friction ");

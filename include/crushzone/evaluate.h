@@ -135,6 +135,8 @@ typedef struct CzEvaluation {
     const char *const *not_covered; /* borrowed from the evaluator (n_not_covered) */
     int n_not_applicable; /* scenarios of the profile that do not apply, each with the reason */
     const char *const *not_applicable; /* borrowed from the evaluator (n_not_applicable) */
+    int n_changed_scenario; /* scenarios of the profile that the problem replaces or changes */
+    const char *const *changed_scenario; /* borrowed from the evaluator (n_changed_scenario) */
     int n_not_judged;
     const CzNotJudged *not_judged; /* obstacles, borrowed from the evaluator (n_not_judged) */
     int n_match;                   /* the last constraints belong to them */

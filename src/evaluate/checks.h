@@ -47,6 +47,8 @@ typedef struct CzChecklist {
     const char *const *not_covered; /* of the profile (n_not_covered) */
     int n_not_applicable;
     const char *const *not_applicable; /* scenarios of the profile, with the reason (n) */
+    int n_changed_scenario;
+    const char *const *changed_scenario; /* of the profile, replaced or changed (n) */
 } CzChecklist;
 
 /* Lists all checks and targets of a problem. Memory comes from the arena. Statuses: CZ_OK,

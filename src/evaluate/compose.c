@@ -289,6 +289,8 @@ CzStatus cz_compose(const CzEvaluator *evaluator, const CzVehicle *vehicles,
     evaluation->not_covered = evaluator->list.not_covered;
     evaluation->n_not_applicable = evaluator->list.n_not_applicable;
     evaluation->not_applicable = evaluator->list.not_applicable;
+    evaluation->n_changed_scenario = evaluator->list.n_changed_scenario;
+    evaluation->changed_scenario = evaluator->list.changed_scenario;
     evaluation->n_not_judged = evaluator->obstacles.n;
     evaluation->not_judged = evaluator->obstacles.train;
     CZ_TRY(judge_matches(evaluator, vehicles, run, whole, evaluation, error));

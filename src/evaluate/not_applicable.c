@@ -1,4 +1,4 @@
-/* Lists scenarios of the profile that do not apply to a problem, or that it changes. */
+/* Lists scenarios of the profile that do not apply to a problem, and those that it changes. */
 #include "evaluate/not_applicable.h"
 
 #include <math.h>
@@ -41,20 +41,21 @@ CzStatus cz_not_applicable_list(const CzProblem *problem, CzArena *arena, CzChec
     int n_asked;
     const CzAskedScenario *asked = cz_problem_profile_scenarios(problem, &n_asked);
     const char **text = cz_arena_allocate(arena, (size_t)n_asked + 1, sizeof *text);
+    const char **changed = cz_arena_allocate(arena, (size_t)n_asked + 1, sizeof *changed);
     list->not_applicable = text;
-    for (int i = 0; text != NULL && i < n_asked; i++) {
-        const CzStanding standing = asked[i].standing;
-        const char *why = asked[i].why;
+    list->changed_scenario = changed;
+    for (int i = 0; !arena->out_of_memory && i < n_asked; i++) {
+        const CzProfileScenario *scenario = asked[i].scenario;
         char line[400];
-        if (standing == CZ_STANDING_NOT_SELECTED)
-            continue;
-        if (standing != CZ_STANDING_NOT_APPLICABLE) {
-            if (has_it(cz_problem_input(problem), asked[i].scenario, asked[i].speed))
-                continue;
-            why = "this problem has another one in its place, or other values";
+        if (asked[i].standing == CZ_STANDING_NOT_APPLICABLE) {
+            const int n =
+                snprintf(line, sizeof line, "%.60s: %.300s", scenario->name, asked[i].why);
+            text[list->n_not_applicable++] = cz_arena_copy_text(arena, line, (size_t)n);
+        } else if (asked[i].standing != CZ_STANDING_NOT_SELECTED &&
+                   !has_it(cz_problem_input(problem), scenario, asked[i].speed)) {
+            changed[list->n_changed_scenario++] =
+                cz_arena_copy_text(arena, scenario->name, strlen(scenario->name));
         }
-        const int n = snprintf(line, sizeof line, "%.60s: %.300s", asked[i].scenario->name, why);
-        text[list->n_not_applicable++] = cz_arena_copy_text(arena, line, (size_t)n);
     }
     return arena->out_of_memory ? cz_no_memory(error, "the checks") : CZ_OK;
 }

@@ -46,6 +46,11 @@ static void add_row(CzMatrix *matrix, const char *name) {
     row[matrix->n_row++] = name;
 }
 
+/* Whether the scenario of a check was left out. */
+static bool is_left_out(const CzCheckResult *check) {
+    return check->has_no_run && check->is_omitted;
+}
+
 /* Lists scenarios and criteria in the order of the checks, the design last. */
 static void list_names(CzMatrix *matrix) {
     const CzEvaluation *evaluation = matrix->evaluation;
@@ -53,7 +58,7 @@ static void list_names(CzMatrix *matrix) {
     for (int i = 0; i < evaluation->n_check && !matrix->arena.out_of_memory; i++) {
         const CzCheckResult *check = &evaluation->check[i];
         const char *name = cz_checks_scenario(check);
-        if (check->has_no_run)
+        if (is_left_out(check))
             continue;
         has_design |= strcmp(name, design) == 0;
         if (strcmp(name, design) != 0 && find_column(matrix, name) < 0)
@@ -87,7 +92,7 @@ bool cz_matrix_build(CzMatrix *matrix, const CzEvaluation *evaluation) {
     for (size_t i = 0; i < n; i++)
         matrix->cell[i] = -1;
     for (int i = 0; i < evaluation->n_check; i++)
-        if (!evaluation->check[i].has_no_run)
+        if (!is_left_out(&evaluation->check[i]))
             place_check(matrix, i);
     return true;
 }
@@ -153,7 +158,8 @@ static void write_scenarios(const CzMatrix *matrix, CzTerminal *terminal) {
         cz_table_put_styled(&table, cz_verdict_word(column->verdict),
                             cz_verdict_style(column->verdict));
         cz_table_put(&table, cz_matrix_text(column->worst, text));
-        cz_table_put(&table, column->worst->name);
+        cz_table_put(&table,
+                     column->worst->has_no_run ? "run failed or incomplete" : column->worst->name);
         cz_table_put(&table, column->worst->where);
     }
     cz_table_write_text(&table, terminal);

@@ -7,7 +7,7 @@
 #include "report/figure.h"
 #include "report/table.h"
 
-/* A column: a scenario that was run, a family of scenarios, or "design". */
+/* A column: a scenario that was not left out, a family of scenarios, or "design". */
 typedef struct CzMatrixColumn {
     const char *name;
     bool is_design;

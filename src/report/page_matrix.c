@@ -55,7 +55,7 @@ static void put_row(CzReportTable *table, const CzPage *page, const Columns *col
         const CzCheckResult *check = cz_matrix_check(matrix, row, k);
         char text[CZ_MATRIX_ROOM], address[32];
         cz_table_put_styled(table, cz_matrix_text(check, text), cz_matrix_style(check));
-        if (check == NULL)
+        if (check == NULL || check->has_no_run) /* one line for all of the scenario */
             continue;
         snprintf(address, sizeof address, "#check-%d",
                  matrix->cell[row * matrix->n_column + k] + 1);

@@ -43,6 +43,8 @@ const char *cz_screening_remark(CzVerdict verdict, int n_not_covered,
 
 static const char not_covered[] = "Not covered by this program, to be shown by other means";
 static const char not_applicable[] = "Scenarios of the profile that do not apply";
+static const char changed_scenario[] =
+    "Scenarios of the profile that this problem replaces or changes";
 
 /* A sentence that lists texts. */
 static void print_list(const char *title, int n, const char *const *text, CzTerminal *terminal) {
@@ -69,6 +71,8 @@ void cz_not_checked_print(const CzEvaluation *evaluation, CzTerminal *terminal) 
         cz_terminal_print(terminal, CZ_STYLE_CAREFUL, "%s", evaluation->not_judged[i].train);
         fprintf(terminal->stream, ", %s.\n", evaluation->not_judged[i].why);
     }
+    print_list(changed_scenario, evaluation->n_changed_scenario, evaluation->changed_scenario,
+               terminal);
     print_list(not_applicable, evaluation->n_not_applicable, evaluation->not_applicable, terminal);
     print_list(not_covered, evaluation->n_not_covered, evaluation->not_covered, terminal);
 }
@@ -77,6 +81,8 @@ void cz_not_checked_write(const CzEvaluation *evaluation, CzMarkup *markup) {
     for (int i = 0; i < evaluation->n_not_judged; i++)
         cz_markup_write(markup, "<p>Not judged: %s, %s.</p>\n", evaluation->not_judged[i].train,
                         evaluation->not_judged[i].why);
+    write_list(changed_scenario, evaluation->n_changed_scenario, evaluation->changed_scenario,
+               markup);
     write_list(not_applicable, evaluation->n_not_applicable, evaluation->not_applicable, markup);
     write_list(not_covered, evaluation->n_not_covered, evaluation->not_covered, markup);
 }

@@ -20,7 +20,8 @@ enum { CZ_SCREENING_ROOM = 96 };
 const char *cz_screening_remark(CzVerdict verdict, int n_not_covered, char text[CZ_SCREENING_ROOM]);
 
 /* What stands apart from the checks, a line each: trains that are not judged, scenarios of the
- * profile that do not apply, requirements of the profile that are not covered. */
+ * profile that the problem changes or that do not apply, requirements of the profile that are not
+ * covered. */
 void cz_not_checked_print(const CzEvaluation *evaluation, CzTerminal *terminal);
 void cz_not_checked_write(const CzEvaluation *evaluation, CzMarkup *markup);
 

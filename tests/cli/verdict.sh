@@ -196,6 +196,7 @@ check "check prints criteria by scenarios" matrix
 missing() {
     exits 3 "$C" check three.yaml --set simulation.longest_s=0.05 -o out && [ "$(grep -c '^NOT CHECKED: 3 checks of .*, the run of this scenario did not meet' out.txt)" = 3 ] && says out.txt '10 checks: 9 NOT CHECKED, 1 pass' &&
         json out/summary.json checks.8.why 'the run of this scenario did not meet its end criterion within simulation.longest_s' &&
+        grep -qE '^3 +slower +NOT CHECKED +[?] +run failed or incomplete$' out.txt && grep -qE '^peak force +[?] +[?] +[?]$' out.txt && says out/report.html '<section id="matrix">' &&
         [ "$(grep -c 'the run of this scenario did not meet' out/report.html)" = 3 ]
 }
 check "the checks of a scenario without a result are one line of the table and the report, and each is in JSON" missing

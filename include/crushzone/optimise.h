@@ -73,6 +73,7 @@ typedef struct CzOptimiseOptions {
                               that of the file (n_variable) */
     unsigned verify_methods;           /* methods of verification of a design that passes, as in
                                           CzVerifyOptions; by default all but Adams, 0 for none */
+    bool no_sensitivities;             /* they, and the condition of an optimum, are left out */
     const volatile sig_atomic_t *stop; /* a flag that ends the search when not 0; NULL when none */
     void (*progress)(const CzProgress *progress, void *data); /* NULL when none */
     void *progress_data;
@@ -153,6 +154,8 @@ typedef struct CzOutcome {
     long n_whole;            /* designs of the search that were run in all scenarios */
     int n_scenario;          /* 0 when every design was run in all scenarios */
     CzScenarioUse *scenario; /* (n_scenario) */
+    bool is_cut_short; /* the search ended by itself, but the stop flag left out what follows it:
+                          the relaxation of a limit or the sensitivities */
     double *sensitivity_increment; /* tried change of one variable at the best design, in its unit:
                                       negative at the upper bound, 0 when none was tried; NULL after
                                       an interruption (n_variable) */

@@ -8,7 +8,7 @@
 
 static int judge(const CzArguments *arguments, const CzChallenge *challenge) {
     if (challenge->is_interrupted)
-        return 128 + cz_interrupt_signal();
+        return cz_interrupt_code();
     for (int i = 0; i < challenge->n_weak; i++)
         if (challenge->weak[i].state != CZ_SAMPLE_DONE) {
             cz_print_note(arguments,

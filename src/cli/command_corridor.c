@@ -8,7 +8,7 @@
 
 static int judge(const CzArguments *arguments, const CzCorridor *corridor) {
     if (corridor->is_interrupted)
-        return 128 + cz_interrupt_signal();
+        return cz_interrupt_code();
     if (corridor->exists)
         return 0;
     if (corridor->curve[0].state == CZ_SAMPLE_RUN_FAILED) {

@@ -46,7 +46,7 @@ static int evaluate(const CzSession *session) {
     const CzStatus status =
         cz_dakota_evaluate(session->problem, arguments->operand[0], &options, &dakota, &error);
     if (status == CZ_STATUS_INTERRUPTED)
-        return 128 + cz_interrupt_signal();
+        return cz_interrupt_code();
     if (status != CZ_OK)
         return refuse(session, &error);
     if (cz_dakota_failure(dakota)[0] != '\0')

@@ -72,7 +72,10 @@ static CzStatus run(Search *search, CzOptimiseOptions *options, CzError *error) 
     return status;
 }
 
+/* Results that lack a part are not those that were asked for, whatever their verdict. */
 static int judge(const CzOutcome *outcome) {
+    if (outcome->is_cut_short)
+        return cz_interrupt_code();
     switch (outcome->status) {
     case CZ_OUTCOME_FEASIBLE:
         return 0;
@@ -80,8 +83,7 @@ static int judge(const CzOutcome *outcome) {
     case CZ_OUTCOME_INFEASIBLE:
         return cz_status_exit_code(CZ_STATUS_VIOLATED);
     case CZ_OUTCOME_INTERRUPTED:
-        return cz_interrupt_is_limit() ? cz_status_exit_code(CZ_STATUS_RUN_FAILED)
-                                       : 128 + cz_interrupt_signal();
+        return cz_interrupt_code();
     }
     return cz_status_exit_code(CZ_STATUS_INTERNAL);
 }

@@ -36,8 +36,7 @@ static void show(const CzProgress *of_search, void *data) {
 static int judge(const CzPareto *pareto) {
     CzStatus worst = CZ_OK;
     if (pareto->is_interrupted)
-        return cz_interrupt_is_limit() ? cz_status_exit_code(CZ_STATUS_RUN_FAILED)
-                                       : 128 + cz_interrupt_signal();
+        return cz_interrupt_code();
     for (int i = 0; i < pareto->n_point; i++)
         if (pareto->point[i].state == CZ_PARETO_FAILED)
             worst = CZ_STATUS_RUN_FAILED;

@@ -10,7 +10,7 @@
 
 static int judge(const CzArguments *arguments, const CzSampling *sampling) {
     if (sampling->is_interrupted)
-        return 128 + cz_interrupt_signal();
+        return cz_interrupt_code();
     if (sampling->n_failed > 0)
         cz_print_note(arguments, "%d samples gave no result, and count as failing",
                       sampling->n_failed);

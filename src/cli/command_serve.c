@@ -50,7 +50,7 @@ static int answer_lines(const CzArguments *arguments, CzServer *server) {
             break;
         }
         if (status == CZ_STATUS_INTERRUPTED)
-            code = 128 + cz_interrupt_signal();
+            code = cz_interrupt_code();
         else if (status != CZ_OK)
             code = cz_print_error(arguments, &error);
     }

@@ -10,7 +10,7 @@ static int end_early(const CzSession *session, CzStatus status, const CzError *e
     if (status != CZ_STATUS_INTERRUPTED)
         return cz_session_fail(session, error);
     (void)cz_print_error(session->arguments, error);
-    return 128 + cz_interrupt_signal();
+    return cz_interrupt_code();
 }
 
 /* ---- explain: checks and overrides, and changes that help ---- */
@@ -58,7 +58,7 @@ static int verify(CzSession *session) {
     const CzStatus status =
         cz_verify(session->evaluator, NULL, NULL, &options, &verification, &error);
     if (status == CZ_STATUS_INTERRUPTED)
-        return 128 + cz_interrupt_signal();
+        return cz_interrupt_code();
     if (status != CZ_OK)
         return cz_session_fail(session, &error);
     CzReport report = cz_session_report(session, CZ_REPORT_VERIFICATION, 0);

@@ -19,7 +19,7 @@ static int read_axes(const CzArguments *arguments, CzSweepAxis axis[CZ_MOST_AXES
 
 static int judge(const CzArguments *arguments, const CzSweep *sweep) {
     if (sweep->is_interrupted)
-        return 128 + cz_interrupt_signal();
+        return cz_interrupt_code();
     if (sweep->n_shard > 1) /* it is complete, and the whole is judged */
         return 0;
     bool passes = true;

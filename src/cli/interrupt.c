@@ -1,6 +1,8 @@
 /* Signals that end a long command. */
 #include "cli/interrupt.h"
 
+#include "crushzone/status.h"
+
 #include <math.h>
 #include <stddef.h>
 #include <sys/time.h>
@@ -50,6 +52,8 @@ const volatile sig_atomic_t *cz_interrupt_flag(void) {
     return &stop_signal;
 }
 
-int cz_interrupt_signal(void) {
-    return stop_signal != 0 ? (int)stop_signal : SIGINT;
+int cz_interrupt_code(void) {
+    if (cz_interrupt_is_limit())
+        return cz_status_exit_code(CZ_STATUS_RUN_FAILED);
+    return 128 + (stop_signal != 0 ? (int)stop_signal : SIGINT);
 }

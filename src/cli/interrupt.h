@@ -15,7 +15,8 @@ bool cz_interrupt_is_limit(void);
 /* The flag that the library checks. */
 const volatile sig_atomic_t *cz_interrupt_flag(void);
 
-/* The signal that was received, SIGINT when there was none. */
-int cz_interrupt_signal(void);
+/* The exit code of a command that was interrupted: that of the signal, SIGINT when there was none,
+ * or of an incomplete run at the time limit. */
+int cz_interrupt_code(void);
 
 #endif

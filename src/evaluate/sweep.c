@@ -405,8 +405,11 @@ CzStatus cz_sweep(const char *file, const CzProblemOptions *problem_options,
     cz_study_end(&sweeping.study);
     if (status == CZ_OK)
         status = conclude(&sweeping, error);
-    if (status == CZ_OK && options->curves && !is_stopped(options) && options->n_shard == 1)
-        status = cz_sweep_record(*sweep, options, read_point, &sweeping, error);
+    if (status == CZ_OK && options->curves && options->n_shard == 1) {
+        if (!is_stopped(options))
+            status = cz_sweep_record(*sweep, options, read_point, &sweeping, error);
+        (*sweep)->is_interrupted = is_stopped(options);
+    }
     (*sweep)->wall_s = cz_clock() - started;
     if (status == CZ_OK)
         return CZ_OK;

@@ -263,6 +263,8 @@ static CzStatus fill_outcome(CzEvaluator *evaluator, CzCombinations *combination
         conclude_verification(combinations, options->evaluations, outcome);
     }
     CZ_TRY(relax(evaluator, options, outcome, error));
+    if (options->no_sensitivities)
+        return CZ_OK;
     CZ_TRY(cz_sensitivity_take(evaluator, options->stop, outcome, error));
     CZ_TRY(cz_margins_order(evaluator, outcome, error));
     return cz_stationarity_find(evaluator, outcome, error);

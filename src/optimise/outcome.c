@@ -144,6 +144,15 @@ CzStatus cz_outcome_verify(CzEvaluator *evaluator, const CzOptimiseOptions *opti
     return CZ_OK;
 }
 
+void cz_outcome_cut_short(CzOutcome *outcome, const char *part) {
+    const size_t n = strlen(outcome->why_stopped);
+    if (outcome->status == CZ_OUTCOME_INTERRUPTED || outcome->is_cut_short)
+        return;
+    outcome->is_cut_short = true;
+    snprintf(outcome->why_stopped + n, sizeof outcome->why_stopped - n, "; interrupted, without %s",
+             part);
+}
+
 /* ---- the record of an earlier search ------------------------------------------------
  *
  * There is no search; start and best design are evaluated again. */

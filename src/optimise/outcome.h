@@ -43,6 +43,10 @@ CZ_MUST_CHECK CzStatus cz_outcome_verify_design(CzEvaluator *evaluator,
 CZ_MUST_CHECK CzStatus cz_outcome_verify(CzEvaluator *evaluator, const CzOptimiseOptions *options,
                                          CzOutcome *outcome, CzError *error);
 
+/* Notes that the stop flag left out a part of the results, unless the search itself was interrupted
+ * or an earlier part was left out. */
+void cz_outcome_cut_short(CzOutcome *outcome, const char *part);
+
 /* Adds to the outcome of a fit the best parameter sets that fit about as well as record `best` and
  * are distant from it and from one another (alternatives.c). Statuses: CZ_OK,
  * CZ_STATUS_NO_MEMORY. */

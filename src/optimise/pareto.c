@@ -188,6 +188,7 @@ static CzStatus search_once(Front *front, int objective, const double *start, Cz
         options.journal = &rest;
     }
     options.start = start;
+    options.no_sensitivities = true;
     options.progress = count;
     options.progress_data = front;
     front->n_evaluation = 0;
@@ -195,7 +196,8 @@ static CzStatus search_once(Front *front, int objective, const double *start, Cz
     CzStatus status = cz_optimise(evaluator, &options, &outcome, error);
     front->n_answered += front->n_evaluation;
     if (status == CZ_OK) {
-        front->pareto->is_interrupted = outcome->status == CZ_OUTCOME_INTERRUPTED;
+        front->pareto->is_interrupted =
+            outcome->status == CZ_OUTCOME_INTERRUPTED || outcome->is_cut_short;
         status = take(front, outcome, point, error);
     } else if (status == CZ_STATUS_RUN_FAILED) {
         point->state = CZ_PARETO_FAILED;

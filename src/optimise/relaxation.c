@@ -215,5 +215,7 @@ CzStatus cz_relaxation_find(CzEvaluator *evaluator, const volatile sig_atomic_t 
     cz_arena_free(&arena);
     if (status == CZ_OK && passes_unrelaxed(&outcome->relaxation))
         status = adopt(evaluator, outcome, error);
+    else if (stop != NULL && *stop != 0)
+        cz_outcome_cut_short(outcome, "the relaxation of a limit");
     return status;
 }

@@ -72,12 +72,19 @@ static CzStatus evaluate(CzEvaluator *evaluator, CzOutcome *outcome, CzError *er
     return status;
 }
 
+static void cut_short(CzOutcome *outcome) {
+    outcome->sensitivity_increment = NULL;
+    cz_outcome_cut_short(outcome, "sensitivities");
+}
+
 CzStatus cz_sensitivity_take(CzEvaluator *evaluator, const volatile sig_atomic_t *stop,
                              CzOutcome *outcome, CzError *error) {
     const size_t n = (size_t)outcome->n_variable;
     const size_t n_constraint = (size_t)outcome->best_evaluation.n_constraint;
-    if (stop != NULL && *stop != 0)
+    if (stop != NULL && *stop != 0) {
+        cut_short(outcome);
         return CZ_OK;
+    }
     double *increment = cz_outcome_numbers(outcome, n);
     outcome->objective_change = cz_outcome_numbers(outcome, n);
     outcome->constraint_change = cz_outcome_numbers(outcome, n * n_constraint);
@@ -94,7 +101,8 @@ CzStatus cz_sensitivity_take(CzEvaluator *evaluator, const volatile sig_atomic_t
     cz_evaluator_set_stop(evaluator, stop);
     const CzStatus status = evaluate(evaluator, outcome, error);
     cz_evaluator_set_stop(evaluator, NULL);
-    if (status == CZ_STATUS_INTERRUPTED)
-        outcome->sensitivity_increment = NULL;
-    return status == CZ_STATUS_INTERRUPTED ? CZ_OK : status;
+    if (status != CZ_STATUS_INTERRUPTED)
+        return status;
+    cut_short(outcome);
+    return CZ_OK;
 }

@@ -185,7 +185,7 @@ CzStatus cz_page_write_pareto(const CzPareto *pareto, const CzProblem *problem, 
     cz_page_write_document(&markup, problem);
     if (pareto->is_interrupted)
         cz_markup_write(&markup,
-                        "<p class='fail'>The search was interrupted: points are missing.</p>");
+                        "<p class='fail'>The search was interrupted: the front is incomplete.</p>");
     cz_pareto_describe(pareto, sizeof text, text);
     cz_markup_write(&markup, "<p>%s</p>\n", text);
     cz_screening_write(problem, &markup);

@@ -152,7 +152,8 @@ CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error)
     cz_page_write_document(&markup, sweep->problem);
     if (sweep->is_interrupted)
         cz_markup_write(&markup,
-                        "<p class='fail'>The sweep was interrupted: points are missing.</p>");
+                        "<p class='fail'>The sweep was interrupted: points or their curves are "
+                        "missing.</p>");
     for (int i = 0; i < sweep->n_unreached;) {
         i += cz_sweep_unreached_sentence(sweep, i, title);
         cz_markup_write(&markup, "<p><strong>Warning</strong>: %s.</p>", title);

@@ -94,5 +94,5 @@ void cz_pareto_write_table(const CzReport *report, CzTerminal *terminal) {
     cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s\n", text);
     cz_screening_print(report->problem, terminal);
     if (pareto->is_interrupted)
-        cz_terminal_print(terminal, CZ_STYLE_BAD, "INTERRUPTED: points are missing.\n");
+        cz_terminal_print(terminal, CZ_STYLE_BAD, "INTERRUPTED: the front is incomplete.\n");
 }

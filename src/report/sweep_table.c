@@ -190,5 +190,6 @@ void cz_sweep_write_table(const CzReport *report, CzTerminal *terminal) {
     write_worst(sweep, terminal);
     cz_screening_print(sweep->problem, terminal);
     if (sweep->is_interrupted)
-        cz_terminal_print(terminal, CZ_STYLE_BAD, "INTERRUPTED: points are missing.\n");
+        cz_terminal_print(terminal, CZ_STYLE_BAD,
+                          "INTERRUPTED: points or their curves are missing.\n");
 }

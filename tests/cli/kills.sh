@@ -1,5 +1,5 @@
 # kills.sh N: searches that are killed (SIGKILL) at random moments, N times in all, and resumed: each ends in the same bytes
-# as the search that was left alone.
+# as the search that was left alone. Others are asked to end (SIGTERM) towards their end.
 . "$SOURCE/tests/support/cases.sh"
 . "$SOURCE/tests/cli/cli.sh"
 wanted=$1
@@ -90,7 +90,27 @@ all() {
         done <list
     done
 }
+# SIGTERM towards the end, where the optimum is verified and its sensitivities are computed: a search that ends with an exit
+# code of its own has the bytes of one that was left alone.
+asked() {
+    # shellcheck disable=SC2086 # options are words
+    while read -r command file options; do
+        key=$(echo "$command $file $options" | tr -c 'a-zA-Z0-9\n' _)
+        for share in $(seq "$1"); do
+            rm -rf out
+            "$C" "$command" "$file" $options -o out -q >o 2>e &
+            victim=$!
+            sleep "$(awk -v time="$(cat "$key.time")" -v share="$share" -v n="$1" 'BEGIN { print time * (0.5 + 0.5 * share / n) }')"
+            kill -TERM $victim 2>/dev/null
+            code=0
+            wait $victim || code=$?
+            [ $code = 143 ] || { [ $code -le 1 ] && same_results "$key" out; } || { echo "exit code $code: $file $options"; cat e; return 1; }
+        done
+    done
+}
+asked_all() { grep -e two-trains.yaml -e pareto list | sed "$1" | asked "$2"; }
 cases >list
 check "killed searches that are resumed end in the same bytes" all
+check "a search that SIGTERM leaves without a part of its results ends with 143" asked_all "$([ "$wanted" -ge 100 ] || echo 1q)" $((wanted > 30 ? 30 : 3))
 echo "$n_kill kills in $round rounds of $(wc -l <list) searches"
 finish

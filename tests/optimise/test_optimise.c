@@ -209,6 +209,62 @@ static void interruption_gives_the_best_so_far(void **state) {
     end(&made);
 }
 
+/* An executor that sets the stop flag when a batch begins. */
+typedef struct Stopper {
+    int n_batch, at;
+    volatile sig_atomic_t stop;
+} Stopper;
+
+static CzStatus count_batch(const CzExecutor *executor, CzTasks *tasks, CzError *error) {
+    Stopper *stopper = executor->data;
+    (void)tasks;
+    (void)error;
+    if (++stopper->n_batch == stopper->at)
+        stopper->stop = SIGTERM;
+    return CZ_OK;
+}
+
+static CzStatus run_batch(const CzExecutor *executor, CzTasks *tasks, CzError *error) {
+    (void)executor;
+    (void)error;
+    for (int task = 0; task < cz_tasks_n(tasks); task++)
+        cz_task_run(tasks, task);
+    return CZ_OK;
+}
+
+static Case optimise_until(Stopper *stopper, int at) {
+    CzError error = {0};
+    const CzExecutor executor = {
+        .n_place = 1, .submit = count_batch, .wait = run_batch, .data = stopper};
+    const CzEvaluatorOptions evaluator_options = {.executor = &executor, .step_factor = 1};
+    CzOptimiseOptions options = cz_optimise_options_default();
+    Case made = {.problem = small_problem(sizing)};
+    *stopper = (Stopper){.at = at};
+    options.stop = &stopper->stop;
+    assert_int_equal(cz_evaluator_build(made.problem, &evaluator_options, &made.evaluator, &error),
+                     CZ_OK);
+    optimise(&made, &options);
+    return made;
+}
+
+static void a_search_without_its_sensitivities_is_cut_short(void **state) {
+    (void)state;
+    stand_in_reset();
+    Stopper stopper;
+    Case whole = optimise_until(&stopper, 0);
+    assert_false(whole.outcome->is_cut_short);
+    assert_non_null(whole.outcome->sensitivity_increment);
+    Case cut = optimise_until(&stopper, stopper.n_batch);
+    assert_true(cut.outcome->is_cut_short);
+    assert_null(cut.outcome->sensitivity_increment);
+    assert_int_equal(cut.outcome->status, CZ_OUTCOME_FEASIBLE);
+    assert_non_null(strstr(cut.outcome->why_stopped, "; interrupted, without sensitivities"));
+    assert_memory_equal(cut.outcome->best, whole.outcome->best,
+                        (size_t)whole.outcome->n_variable * sizeof(double));
+    end(&whole);
+    end(&cut);
+}
+
 static void a_violation_in_the_full_run_is_never_reported_as_success(void **state) {
     (void)state;
     stand_in_reset();
@@ -342,6 +398,7 @@ int main(void) {
         cmocka_unit_test(an_infeasible_problem_gives_the_least_violated_design),
         cmocka_unit_test(a_design_that_passes_only_between_the_increments_is_given_and_reported),
         cmocka_unit_test(interruption_gives_the_best_so_far),
+        cmocka_unit_test(a_search_without_its_sensitivities_is_cut_short),
         cmocka_unit_test(a_violation_in_the_full_run_is_never_reported_as_success),
         cmocka_unit_test(problem_without_variables_is_refused),
         cmocka_unit_test(unknown_algorithm_is_refused_before_anything_runs),

@@ -84,8 +84,8 @@ typedef struct CzInterfaceResult {
     char name[CZ_INTERFACE_ROOM]; /* "A4-B1" */
     double peak_force;            /* largest total longitudinal force over all steps [N] */
     double peak_time;             /* [s] */
-    double peak_force_cfc180; /* largest of the recorded forces through a filter CFC 180 [N]; NaN
-                                 without a recording, and where its samples are too sparse */
+    double peak_force_cfc180; /* largest force through a filter CFC 180, every step counted [N];
+                                 NaN without pulses, and where the time step is too long */
     double shortening;        /* largest closure between the bodies at this interface [m] */
     double energy;            /* dissipated [J] */
     double energy_share;      /* of the dissipated energy [-] */
@@ -151,12 +151,14 @@ typedef struct CzContactWindow {
     double mean;     /* |change of speed| / time [m/s2] */
 } CzContactWindow;
 
-/* Speed of a body and net contact force on its vehicle over time, unfiltered. */
+/* Speed of a body and net contact force on its vehicle over time, unfiltered, from t = 0. */
 typedef struct CzPulse {
-    int n_sample;
-    double step;         /* between samples, the first at t = 0 [s] */
-    const double *speed; /* [m/s] (n_sample) */
-    const double *force; /* push from behind less push from ahead [N] (n_sample) */
+    int n_sample, n_step;
+    double step;              /* between samples of the speed [s] */
+    double time_step;         /* of the run [s] */
+    const double *speed;      /* [m/s] (n_sample) */
+    const double *step_speed; /* the same after every time step [m/s] (n_step) */
+    const double *force;      /* push from behind less push from ahead [N] (n_step) */
     int n_window;
     const CzContactWindow
         *window; /* contact windows with at least half of the largest mean, however

@@ -22,7 +22,7 @@ enum {
     MOST_STEPS = 100000 /* of a reference within one step of the model: more occur only when events
                            follow one another endlessly (ours) */
 };
-#define SAMPLING 1e-3 /* of the history for mean decelerations [s] (ours) */
+#define SAMPLING 1e-3 /* of speeds for means over sliding windows [s] (ours) */
 
 CzSimulateOptions cz_simulate_options_default(void) {
     return (CzSimulateOptions){.time_step = 0.0,
@@ -128,7 +128,7 @@ static CzStatus choose(CzBatch *batch, const CzModel *model, int n_design,
     batch->integrator = options->integrator;
     batch->track = track_of(model, options->track);
     batch->step = options->time_step > 0.0 ? options->time_step : model->time_step;
-    batch->history_step = fmax(1.0, round(SAMPLING / batch->step)) * batch->step;
+    batch->sampling = (long)fmax(1.0, round(SAMPLING / batch->step));
     return CZ_OK;
 }
 
@@ -218,14 +218,14 @@ static void record_end(Recording *recording) {
     summary->event = cz_watch_events(recording->watch, &summary->n_event);
 }
 
-/* Adds a sample to the histories of the designs without a summary. */
+/* Adds a step to the histories of the designs without a summary. */
 static CzStatus add_history(const CzBatch *batch) {
     for (int design = 0; design < batch->n_design; ++design) {
         if (batch->design[design].has_summary)
             continue;
         if (cz_history_add(batch, design) != CZ_OK)
             return CZ_STATUS_NO_MEMORY;
-        if (batch->keeps_pulses)
+        if (batch->keeps_pulses && batch->n_step % batch->sampling == 0)
             cz_sequence_update(batch, design);
     }
     return CZ_OK;
@@ -292,7 +292,6 @@ static long next_duration(const CzBatch *batch) {
 
 /* Steps until the run of every design is over. */
 static CzStatus march(CzBatch *batch, Recording *recording, CzError *error) {
-    const long every = lround(batch->history_step / batch->step);
     const double look_step = STEPS_BETWEEN_LOOKS * batch->design[0].model->time_step;
     const long look = (long)fmax(1.0, round(look_step / batch->step));
     CzStatus status = add_history(batch);
@@ -300,8 +299,7 @@ static CzStatus march(CzBatch *batch, Recording *recording, CzError *error) {
     int n_left = batch->n_design;
     while (status == CZ_OK && n_left > 0) {
         step(batch, recording);
-        if (batch->n_step % every == 0)
-            status = add_history(batch);
+        status = add_history(batch);
         if (status == CZ_OK && recording != NULL)
             status = record_step(recording, batch);
         const bool is_time =

@@ -12,14 +12,14 @@
 
 double cz_pulse_largest_force(const CzPulse *pulse) {
     double peak = 0.0;
-    for (int i = 0; i < pulse->n_sample; ++i)
+    for (int i = 0; i < pulse->n_step; ++i)
         peak = fabs(pulse->force[i]) > peak ? fabs(pulse->force[i]) : peak;
     return peak;
 }
 
 bool cz_pulse_next_contact(const CzPulse *pulse, double floor, int *next, CzContactWindow *window) {
-    const double *force = pulse->force, *speed = pulse->speed;
-    const int last = pulse->n_sample - 1;
+    const double *force = pulse->force, *speed = pulse->step_speed;
+    const int last = pulse->n_step - 1;
     int start = *next;
     while (start < last && !(fabs(force[start]) > floor))
         ++start;
@@ -28,8 +28,8 @@ bool cz_pulse_next_contact(const CzPulse *pulse, double floor, int *next, CzCont
     int end = start + 1;
     while (end < last && fabs(force[end]) > floor && force[end] * force[start] > 0.0)
         ++end;
-    const double length = (end - start) * pulse->step;
-    *window = (CzContactWindow){start * pulse->step, end * pulse->step,
+    const double length = (end - start) * pulse->time_step;
+    *window = (CzContactWindow){start * pulse->time_step, end * pulse->time_step,
                                 fabs(speed[end] - speed[start]) / length};
     *next = end;
     return true;
@@ -60,7 +60,7 @@ double cz_pulse_contact_mean(const CzPulse *pulse, double floor, double shortest
     double largest = 0.0;
     int from = 0;
     while (cz_pulse_next_contact(pulse, force, &from, &next)) {
-        const double length = round((next.to - next.from) / pulse->step) * pulse->step;
+        const double length = round((next.to - next.from) / pulse->time_step) * pulse->time_step;
         if (length < shortest || !(next.mean > largest))
             continue;
         largest = next.mean;

@@ -1,7 +1,7 @@
 /* The collision pulse of a vehicle: mean decelerations and the secondary impact of an occupant.
  *
- * Values of equally spaced samples; none of them is filtered but the peak that is named after its
- * filter.
+ * Contact windows begin and end with a time step; all other values are those of samples of the
+ * speed. None of them is filtered but the peak that is named after its filter.
  */
 #ifndef CZ_SIMULATE_PULSE_H
 #define CZ_SIMULATE_PULSE_H
@@ -14,13 +14,13 @@
 #define CZ_PULSE_FLOOR                                                                             \
     0.01                       /* of the largest net force: a smaller force counts as no contact   \
                                   (ours) */
-#define CZ_PULSE_SHORTEST 0.03 /* shortest contact window that counts [s] (ours) */
+#define CZ_PULSE_SHORTEST 0.0 /* shortest contact window that counts [s] (ours) */
 
 /* The largest |net contact force| [N]. */
 double cz_pulse_largest_force(const CzPulse *pulse);
 
 /* Finds the next window in which the net contact force is above `floor` [N]; false when there is
- * none. `next` is the sample to go on with, 0 at first. */
+ * none. `next` is the step to go on with, 0 at first. */
 bool cz_pulse_next_contact(const CzPulse *pulse, double floor, int *next, CzContactWindow *window);
 
 /* Lists the contact windows with the usual floor and at least half of the largest mean, however

@@ -22,13 +22,13 @@ struct CzRun {
     CzChannels channels;
 };
 
-/* Body speeds and interface forces of a design at the sampling step. */
+/* Body speeds and interface forces of a design after every time step. */
 typedef struct CzHistory {
-    int n_sample;
+    int n_step;
     int n_chunk;
-    double **chunk; /* CZ_CHUNK samples each: speed and force of each car in turn */
+    double **chunk; /* CZ_CHUNK steps each: speed and force of each car in turn */
 } CzHistory;
-enum { CZ_CHUNK = 256 };
+enum { CZ_CHUNK = 1024 };
 
 /* State of one design of a batch. */
 typedef struct CzProgressOfDesign {
@@ -83,7 +83,7 @@ typedef struct CzBatch {
     struct CzReference *reference; /* NULL under the fixed-step scheme */
     double step, time;             /* [s] */
     long n_step;
-    double history_step;          /* of the samples [s] */
+    long sampling;                /* steps between samples of pulses and sequences */
     CzProgressOfDesign *design;   /* (n_design) */
     struct CzInterfaceLoad *load; /* by lane */
     struct CzSequence *sequence;  /* by lane; NULL without pulses */
@@ -150,6 +150,8 @@ CZ_MUST_CHECK CzStatus cz_history_add(const CzBatch *batch, int design);
 void cz_history_free(CzHistory *history);
 /* The pulse of a car, in memory of the arena; false when there is none left. */
 bool cz_history_pulse(const CzBatch *batch, int car, int design, CzArena *arena, CzPulse *pulse);
+/* Forces of an interface after every step (n_step of the history). */
+void cz_history_forces(const CzBatch *batch, int interface, int design, double *force);
 
 /* sequence.c: notes the sequence of the devices at a sample; sets the early energy of the elements
  * of a side, NaN where it was not noted. */

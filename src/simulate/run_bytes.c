@@ -26,7 +26,8 @@ static void put_pulses(CzMemoryText *bytes, const CzRunSummary *summary) {
         const CzPulse *pulse = &summary->pulse[i];
         cz_put(bytes, pulse, 1, sizeof *pulse);
         cz_put_numbers(bytes, pulse->speed, (size_t)pulse->n_sample);
-        cz_put_numbers(bytes, pulse->force, (size_t)pulse->n_sample);
+        cz_put_numbers(bytes, pulse->step_speed, (size_t)pulse->n_step);
+        cz_put_numbers(bytes, pulse->force, (size_t)pulse->n_step);
         cz_put(bytes, pulse->window, (size_t)pulse->n_window, sizeof *pulse->window);
     }
 }
@@ -41,7 +42,8 @@ static const CzPulse *get_pulses(CzReading *reading, CzArena *arena) {
     for (int i = 0; pulse != NULL && i < n_pulse; i++) {
         cz_get(reading, &pulse[i], 1, sizeof *pulse);
         pulse[i].speed = cz_get_items(reading, arena, pulse[i].n_sample, sizeof(double));
-        pulse[i].force = cz_get_items(reading, arena, pulse[i].n_sample, sizeof(double));
+        pulse[i].step_speed = cz_get_items(reading, arena, pulse[i].n_step, sizeof(double));
+        pulse[i].force = cz_get_items(reading, arena, pulse[i].n_step, sizeof(double));
         pulse[i].window = cz_get_items(reading, arena, pulse[i].n_window, sizeof *pulse[i].window);
     }
     return pulse;

@@ -171,23 +171,21 @@ static CzStatus fill_awaited(const CzBatch *batch, int design, CzRun *run) {
     return CZ_OK;
 }
 
-/* Fills the filtered peak of an interface from the recorded forces, where there are any. */
-static CzStatus fill_filtered_peak(const CzRun *run, int index, CzInterfaceResult *interface) {
-    const double *time = cz_run_channel(run, CZ_CHANNEL_TIME, 0);
-    const double *recorded = cz_run_channel(run, CZ_CHANNEL_INTERFACE_FORCE, index);
-    const int n = cz_run_n_sample(run);
+/* Fills the filtered peak of an interface of a run that keeps pulses. */
+static CzStatus fill_filtered_peak(const CzBatch *batch, int index, int design,
+                                   CzInterfaceResult *interface) {
+    const int n = batch->design[design].history.n_step;
     interface->peak_force_cfc180 = NAN;
-    if (time == NULL || recorded == NULL || n < 2 ||
-        !cz_filter_fits(FORCE_CLASS, 1e-3 * (time[1] - time[0])))
+    if (!batch->keeps_pulses || n < 2 || !cz_filter_fits(FORCE_CLASS, batch->step))
         return CZ_OK;
     double *force = malloc((size_t)n * sizeof *force);
     if (force == NULL)
         return CZ_STATUS_NO_MEMORY;
-    const CzStatus status =
-        cz_filter_cfc(FORCE_CLASS, 1e-3 * (time[1] - time[0]), n, recorded, force);
+    cz_history_forces(batch, index, design, force);
+    const CzStatus status = cz_filter_cfc(FORCE_CLASS, batch->step, n, force, force);
     interface->peak_force_cfc180 = 0.0;
     for (int i = 0; i < n; ++i)
-        interface->peak_force_cfc180 = fmax(interface->peak_force_cfc180, 1e3 * fabs(force[i]));
+        interface->peak_force_cfc180 = fmax(interface->peak_force_cfc180, fabs(force[i]));
     free(force);
     return status;
 }
@@ -237,7 +235,7 @@ CzStatus cz_summary_fill(const CzBatch *batch, int design, CzRun *run) {
             cz_outer_end_fill(batch, design, side, &summary->outer_end[summary->n_outer_end]);
     for (int i = 0; i < n_interface; ++i) {
         cz_interface_fill(batch, i, design, &interface[i]);
-        CZ_TRY(fill_filtered_peak(run, i, &interface[i]));
+        CZ_TRY(fill_filtered_peak(batch, i, design, &interface[i]));
         interface[i].energy_share = share_of(interface[i].energy, summary->energy.dissipated);
         for (int k = 0; k < interface[i].n_element; ++k)
             summary->energy.survival += interface[i].element[k].zone_energy[CZ_ZONE_SURVIVAL];

@@ -10,7 +10,13 @@ enum { N = 1001 };
 static double speed[N], force[N];
 
 static CzPulse a_pulse(void) {
-    return (CzPulse){.n_sample = N, .step = STEP, .speed = speed, .force = force};
+    return (CzPulse){.n_sample = N,
+                     .n_step = N,
+                     .step = STEP,
+                     .time_step = STEP,
+                     .speed = speed,
+                     .step_speed = speed,
+                     .force = force};
 }
 
 /* Speed from 20 m/s under a deceleration of [g], whose integral is exact at the samples. */
@@ -148,6 +154,20 @@ static void every_contact_window_is_found_and_the_largest_mean_counts(void **sta
     assert_near(cz_pulse_sliding_mean(&pulse, 0.02, window), 40, 1e-9, 0);
 }
 
+/* Ten time steps to a sample: a force from 50.4 to 77.1 ms counts with its own duration, and no
+ * window is too short to count. */
+static void a_window_begins_and_ends_with_a_time_step(void **state) {
+    (void)state;
+    CzPulse pulse = pushed(2, (Push[]){{504, 771, 1000}, {771, 1000, 400}});
+    pulse.time_step = 0.1 * STEP;
+    for (int i = 0; i < N; i++)
+        speed[i] *= 0.1;
+    double window[2];
+    assert_near(cz_pulse_contact_mean(&pulse, 0.5, CZ_PULSE_SHORTEST, window), 25, 1e-9, 0);
+    assert_near(window[0], 0.0504, 1e-12, 0);
+    assert_near(window[1], 0.0771, 1e-12, 0);
+}
+
 /* A weak push between two strong ones ends the window only above the floor. */
 static void the_floor_decides_where_a_window_ends(void **state) {
     (void)state;
@@ -203,6 +223,7 @@ int main(void) {
         cmocka_unit_test(the_largest_velocity_counts_when_the_distance_is_not_reached),
         cmocka_unit_test(a_constant_force_has_one_window_with_the_mean_of_its_force),
         cmocka_unit_test(every_contact_window_is_found_and_the_largest_mean_counts),
+        cmocka_unit_test(a_window_begins_and_ends_with_a_time_step),
         cmocka_unit_test(the_floor_decides_where_a_window_ends),
         cmocka_unit_test(a_change_of_sign_begins_a_window),
         cmocka_unit_test(a_vehicle_without_contact_has_no_window),

@@ -45,7 +45,8 @@ const CzHelpEntry cz_verdict_rules[] = {
     {"NOT CHECKED",
      "else: a run failed or is incomplete, a check could not be made, or there is no "
      "check at all"},
-    {"PROVISIONAL", "else: a check satisfies a limit that is not confirmed, that is, of a "
+    {"PROVISIONAL", "else: a check satisfies a limit, or is of a scenario of the profile, that is "
+                    "not confirmed, that is, of a "
                     "confidence other than S1 (read in the primary text) and user (set by you)"},
     {"pass", "else: every check is satisfied"},
     {NULL, NULL}};

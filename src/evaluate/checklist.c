@@ -2,7 +2,8 @@
 #include "base/error.h"
 #include "base/suggest.h"
 #include "base/text.h"
-#include "evaluate/checks.h"
+#include "evaluate/checklist_parts.h"
+#include "evaluate/design_rules.h"
 #include "evaluate/devices.h"
 #include "evaluate/not_applicable.h"
 #include "evaluate/not_covered.h"
@@ -11,27 +12,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Closing speeds of the service steps [m/s]. */
-static const double buffing_speed = 8 / 3.6;
-static const double service_speed = 15 / 3.6;
-
-typedef struct Builder {
-    const CzProblem *problem;
-    int n_scene;
-    const CzScene *scene;
-    CzArena *arena;
-    CzChecklist *list;
-    CzError *error;
-} Builder;
-
-static CzStatus append(Builder *builder, const CzCheck *check) {
+CzStatus cz_checklist_append(CzChecklistBuilder *builder, const CzCheck *check) {
     CzChecklist *list = builder->list;
     CzCheck *checks = cz_arena_grow(builder->arena, list->check, list->n_check, sizeof *checks);
     if (checks == NULL)
         return cz_no_memory(builder->error, "the checks");
     list->check = checks;
-    list->check[list->n_check++] = *check;
+    checks[list->n_check] = *check;
+    if (check->scenario != CZ_NO_SCENARIO)
+        checks[list->n_check].is_provisional |=
+            cz_asked_is_unconfirmed(builder->problem, &builder->scene[check->scenario]);
+    list->n_check++;
     return CZ_OK;
+}
+
+bool cz_is_unconfirmed(const char *confidence) {
+    return confidence == NULL || (strcmp(confidence, "S1") != 0 && strcmp(confidence, "user") != 0);
 }
 
 /* ---- limits of profile and user ------------------------------------------------------------ */
@@ -48,10 +44,11 @@ static bool holds_in(const CzLimit *limit, const CzScene *scene) {
 }
 
 /* Adds a check in each of its scenarios. */
-static CzStatus append_in_scenarios(Builder *builder, CzCheck check, const CzLimit *limit) {
+static CzStatus append_in_scenarios(CzChecklistBuilder *builder, CzCheck check,
+                                    const CzLimit *limit) {
     if (cz_level_is_of_design(check.metric.kind->level)) {
         check.scenario = CZ_NO_SCENARIO;
-        return append(builder, &check);
+        return cz_checklist_append(builder, &check);
     }
     bool picks = false;
     int n_scene = 0;
@@ -62,7 +59,7 @@ static CzStatus append_in_scenarios(Builder *builder, CzCheck check, const CzLim
         picks |= cz_metric_picks(&check.metric, &builder->scene[s]);
         check.scenario = s;
         check.is_bare = !builder->scene[s].has_reserves;
-        CZ_TRY(append(builder, &check));
+        CZ_TRY(cz_checklist_append(builder, &check));
     }
     const bool from_profile = check.profile != NULL;
     if (n_scene == 0 && !from_profile)
@@ -74,14 +71,8 @@ static CzStatus append_in_scenarios(Builder *builder, CzCheck check, const CzLim
     return CZ_OK;
 }
 
-/* Whether a limit is unconfirmed: limits read in the primary text, and those of the user, are
- * confirmed. */
-static bool is_unconfirmed(const char *confidence) {
-    return confidence == NULL || (strcmp(confidence, "S1") != 0 && strcmp(confidence, "user") != 0);
-}
-
 /* Adds a limit as one or two checks. `profile` is NULL for the user's own. */
-static CzStatus append_limit(Builder *builder, const CzLimit *limit, const char *profile,
+static CzStatus append_limit(CzChecklistBuilder *builder, const CzLimit *limit, const char *profile,
                              bool is_target) {
     CzCheck check = {.name = limit->name,
                      .profile = profile,
@@ -91,7 +82,7 @@ static CzStatus append_limit(Builder *builder, const CzLimit *limit, const char 
                      .is_target = is_target};
     if (check.confidence == NULL && profile == NULL)
         check.confidence = "user";
-    check.is_provisional = is_unconfirmed(check.confidence);
+    check.is_provisional = cz_is_unconfirmed(check.confidence);
     CZ_TRY(cz_problem_place_failure(builder->problem, &limit->metric,
                                     cz_metric_parse(limit->metric, &check.metric, builder->error),
                                     builder->error));
@@ -107,6 +98,18 @@ static CzStatus append_limit(Builder *builder, const CzLimit *limit, const char 
     return CZ_OK;
 }
 
+/* A limit of the file. One with the name of a design rule would be a second check of that name. */
+static CzStatus append_own_limit(CzChecklistBuilder *builder, const CzLimit *limit,
+                                 bool has_rules) {
+    if (!has_rules || !cz_design_rule_is(limit->name, &(CzSuggestion){0}))
+        return append_limit(builder, limit, NULL, false);
+    cz_fail(builder->error, CZ_STATUS_INPUT, "there is a design rule '%s'", limit->name);
+    cz_error_help(builder->error,
+                  "change its number by 'override' in 'checks', or choose another name");
+    return cz_problem_place_failure(builder->problem, &limit->name, CZ_STATUS_INPUT,
+                                    builder->error);
+}
+
 /* Whether the user has a limit of this name, which replaces that of the profile. */
 static bool user_sets(const CzChecks *checks, const char *name) {
     for (int i = 0; i < checks->n_limits; i++)
@@ -116,7 +119,7 @@ static bool user_sets(const CzChecks *checks, const char *name) {
 }
 
 /* Each scenario that the profile asks for and that is not run is not checked. */
-static CzStatus append_not_run(Builder *builder, const CzProfile *profile) {
+static CzStatus append_not_run(CzChecklistBuilder *builder, const CzProfile *profile) {
     int n_asked;
     const CzAskedScenario *asked = cz_problem_profile_scenarios(builder->problem, &n_asked);
     for (int i = 0; i < n_asked; i++) {
@@ -131,12 +134,12 @@ static CzStatus append_not_run(Builder *builder, const CzProfile *profile) {
                                .confidence = asked[i].scenario->confidence,
                                .missing = "scenario of the profile that checks: {scenarios: ...} "
                                           "does not select"};
-        CZ_TRY(append(builder, &check));
+        CZ_TRY(cz_checklist_append(builder, &check));
     }
     return CZ_OK;
 }
 
-static CzStatus append_profile(Builder *builder) {
+static CzStatus append_profile(CzChecklistBuilder *builder) {
     const CzChecks *checks = &cz_problem_input(builder->problem)->checks;
     const CzProfile *profile = cz_problem_profile(builder->problem);
     if (profile == NULL)
@@ -150,219 +153,10 @@ static CzStatus append_profile(Builder *builder) {
     return CZ_OK;
 }
 
-/* ---- design rules --------------------------------------------------------------------------- */
+/* ---- rules of problem files ------------------------------------------------------------------ */
 
-typedef enum Speeds { DESIGN, EVERY, OVERLOAD, BUFFING, SERVICE, CRASH } Speeds;
-typedef enum Needs { NOTHING, TUBE, SHEAR_OFF, FULL, FACE, INNER, N_NEEDS } Needs;
-
-typedef struct Rule {
-    const char *name, *metric;
-    bool is_minimum;
-    double limit;
-    double bare; /* limit without a reserve; NaN: the rule then does not apply */
-    Speeds speeds;
-    Needs needs;
-    const char *doc;
-} Rule;
-
-#define MAX false
-#define MIN true
-#define CZ_RULE(name, metric, bound, limit, bare, speeds, needs, doc)                              \
-    {name, metric, bound, limit, bare, speeds, needs, doc},
-static const Rule rules[] = {
-#include "evaluate/design_rules.def"
-};
-#undef CZ_RULE
-#undef MAX
-#undef MIN
-
-/* The speed by which a scene is of a class. A scene that is like another one at about its speed,
- * such as a sample, is judged by its rules: a tolerance of the speed does not make a service
- * collision a crash. The tenth is ours. */
-static double class_speed(const CzScene *scene) {
-    const CzScene *first = scene;
-    while (first->like != NULL)
-        first = first->like;
-    const double change = fabs(scene->closing_speed - first->closing_speed);
-    return change <= 0.1 * first->closing_speed ? first->closing_speed : scene->closing_speed;
-}
-
-static bool rule_holds_in(Speeds speeds, const CzScene *scene) {
-    const double speed = class_speed(scene) * (1 - 1e-9);
-    if (scene->is_overload || speeds == OVERLOAD)
-        return scene->is_overload && speeds == OVERLOAD;
-    switch (speeds) {
-    case EVERY:
-        return true;
-    case BUFFING:
-        return speed <= buffing_speed;
-    case SERVICE:
-        return speed <= service_speed;
-    case CRASH:
-        return speed > service_speed;
-    case DESIGN:
-    case OVERLOAD:
-        break;
-    }
-    return false;
-}
-
-static void note_end(const CzVehicle *vehicle, const CzEnd *end, bool has[N_NEEDS]) {
-    has[TUBE] |= end->coupler.tube.given;
-    has[SHEAR_OFF] |= end->coupler.shear_off.given;
-    has[FACE] |= end->anti_climber.given && vehicle->model == CZ_MODEL_FULL;
-}
-
-/* Finds the equipment of the vehicles of the problem. */
-static void note_needs(const Builder *builder, bool has[N_NEEDS]) {
-    has[NOTHING] = true;
-    for (int s = 0; s < builder->n_scene; s++) {
-        const CzScene *scene = &builder->scene[s];
-        for (int i = 0; i < scene->n_vehicle; i++) {
-            note_end(scene->vehicle[i], &scene->vehicle[i]->front, has);
-            note_end(scene->vehicle[i], &scene->vehicle[i]->rear, has);
-            has[FULL] |= scene->vehicle[i]->model == CZ_MODEL_FULL;
-            has[INNER] |=
-                i > 0 && i - 1 != scene->colliding && scene->vehicle[i]->model == CZ_MODEL_FULL;
-        }
-    }
-}
-
-static CzStatus append_missing(Builder *builder, const char *name, const char *missing) {
-    const CzCheck check = {
-        .name = name, .scenario = CZ_NO_SCENARIO, .limit = NAN, .missing = missing};
-    return append(builder, &check);
-}
-
-/* Limit of a rule in a scene: its physical limit where no reserves are required, unless the rule is
- * among those that require theirs there, too. NaN where it does not apply. */
-static double limit_in(const Builder *builder, const Rule *rule, const CzScene *scene) {
-    const CzTexts *kept = &cz_problem_input(builder->problem)->uncertainty.reserves;
-    return scene->has_reserves || cz_text_is_among(rule->name, kept->n_text, kept->text)
-               ? rule->limit
-               : rule->bare;
-}
-
-/* A rule of the design itself, also for the vehicles of each variation without reserves, whose
- * values a search does not see otherwise. */
-static CzStatus append_design_rule(Builder *builder, const Rule *rule, CzCheck check) {
-    check.scenario = CZ_NO_SCENARIO;
-    CZ_TRY(append(builder, &check));
-    int last = 0;
-    for (int s = 0; s < builder->n_scene; s++) {
-        const CzScene *scene = &builder->scene[s];
-        check.limit = limit_in(builder, rule, scene);
-        if (scene->variation <= last || scene->has_reserves || isnan(check.limit))
-            continue;
-        last = scene->variation;
-        check.scene_of_vehicles = s;
-        check.is_bare = true;
-        CZ_TRY(append(builder, &check));
-    }
-    return CZ_OK;
-}
-
-static CzStatus append_rule(Builder *builder, const Rule *rule) {
-    CzCheck check = {.name = rule->name,
-                     .limit = rule->limit,
-                     .is_minimum = rule->is_minimum,
-                     .source = rule->doc};
-    CZ_TRY(cz_metric_parse(rule->metric, &check.metric, builder->error));
-    check.scale = check.metric.kind->scale;
-    if (rule->speeds == DESIGN)
-        return append_design_rule(builder, rule, check);
-    bool is_judged = false, is_left_out = false;
-    for (int s = 0; s < builder->n_scene; s++) {
-        check.scenario = s;
-        check.limit = limit_in(builder, rule, &builder->scene[s]);
-        check.is_bare = !builder->scene[s].has_reserves;
-        if (isnan(check.limit) || !rule_holds_in(rule->speeds, &builder->scene[s]))
-            continue;
-        const bool judges = cz_scene_is_judged_by(&builder->scene[s], rule->name);
-        if (judges)
-            CZ_TRY(append(builder, &check));
-        is_judged |= judges;
-        is_left_out |= !judges;
-    }
-    if (is_left_out && !is_judged)
-        return append_missing(builder, rule->name, "no scenario lists it in judged_by");
-    return CZ_OK;
-}
-
-static bool has_obstacle(const CzScene *scene) {
-    return scene->is_obstacle[0] || scene->is_obstacle[1];
-}
-
-static bool has_obstacles_only(const Builder *builder) {
-    for (int s = 0; s < builder->n_scene; s++)
-        if (!has_obstacle(&builder->scene[s]))
-            return false;
-    return true;
-}
-
-/* Largest closing speed up to a bound among the scenarios to which all checks apply, 0 when there
- * is none [m/s]. Where the problem has two trains that collide, obstacles do not count: mass and
- * speed of a collision with one are given. */
-static double fastest_up_to(const Builder *builder, double bound) {
-    const bool any_partner = has_obstacles_only(builder);
-    double fastest = 0;
-    for (int s = 0; s < builder->n_scene; s++) {
-        const CzScene *scene = &builder->scene[s];
-        if (!scene->is_overload && scene->has_reserves && scene->judged_by == NULL &&
-            (any_partner || !has_obstacle(scene)) && scene->closing_speed * (1 - 1e-9) <= bound)
-            fastest = fmax(fastest, scene->closing_speed);
-    }
-    return fastest;
-}
-
-static bool covers_overload(const Builder *builder) {
-    const bool any_partner = has_obstacles_only(builder);
-    const double needed = CZ_OVERLOAD_FACTOR * fastest_up_to(builder, INFINITY) * (1 - 1e-9);
-    for (int s = 0; s < builder->n_scene; s++)
-        if (builder->scene[s].is_overload && builder->scene[s].judged_by == NULL &&
-            (any_partner || !has_obstacle(&builder->scene[s])) &&
-            builder->scene[s].closing_speed >= needed)
-            return true;
-    return false;
-}
-
-/* Whether the speed of a scenario is clearly between the service speed and the fastest. */
-static bool covers_between(const Builder *builder) {
-    const double fastest = fastest_up_to(builder, INFINITY);
-    const double between = fastest_up_to(builder, 0.95 * fastest);
-    return fastest <= 1.1 * service_speed || between > 1.05 * service_speed;
-}
-
-/* Lists rules without their required scenario as not checked. */
-static CzStatus append_missing_scenarios(Builder *builder, const bool has[N_NEEDS]) {
-    if (!covers_overload(builder))
-        CZ_TRY(append_missing(builder, "bottoming out under overload",
-                              "no scenario has mass_factor 1.1 and 1.1 times the largest speed"));
-    if (has[TUBE] && fastest_up_to(builder, buffing_speed) < 0.95 * buffing_speed)
-        CZ_TRY(append_missing(builder, "collapse tubes inactive at 8 km/h (buffing)",
-                              "no scenario closes at 8 km/h"));
-    if (!has[SHEAR_OFF])
-        return CZ_OK;
-    if (fastest_up_to(builder, service_speed) < 0.95 * service_speed)
-        CZ_TRY(append_missing(builder, "no shear-off at 15 km/h (service)",
-                              "no scenario closes at 15 km/h"));
-    if (!covers_between(builder))
-        CZ_TRY(append_missing(builder, "scenario between 15 km/h and the design speed",
-                              "no scenario is between 15 km/h and the largest speed"));
-    return CZ_OK;
-}
-
-static CzStatus append_design_rules(Builder *builder) {
-    bool has[N_NEEDS] = {false};
-    note_needs(builder, has);
-    for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++)
-        if (has[rules[i].needs])
-            CZ_TRY(append_rule(builder, &rules[i]));
-    return append_missing_scenarios(builder, has);
-}
-
-static CzStatus append_rule_of_files(Builder *builder, const char *name, const CzMetric *metric,
-                                     double limit, const char *source) {
+static CzStatus append_rule_of_files(CzChecklistBuilder *builder, const char *name,
+                                     const CzMetric *metric, double limit, const char *source) {
     const CzCheck check = {.name = name,
                            .scenario = CZ_NO_SCENARIO,
                            .metric = *metric,
@@ -371,13 +165,13 @@ static CzStatus append_rule_of_files(Builder *builder, const char *name, const C
                            .source = source,
                            .is_target = true,
                            .is_rule = true};
-    return append(builder, &check);
+    return cz_checklist_append(builder, &check);
 }
 
 /* Every design must be valid in a problem file. The file's own values are, so these checks are not
  * listed. Each rule that a variable can violate has a name; the last check is for all rules of the
  * reader. */
-static CzStatus append_rules_of_files(Builder *builder) {
+static CzStatus append_rules_of_files(CzChecklistBuilder *builder) {
     CzMetric metric = {.selector = "*"};
     for (int rule = 0; rule < CZ_N_VALUE_RULE; rule++) {
         metric.kind = cz_metric_of_rule((CzValueRule)rule);
@@ -394,7 +188,7 @@ static bool is_check(const CzChecklist *list, const char *name, CzSuggestion *ne
     return CZ_FIND_NAMED(name, CzCheck, list->check, list->n_check, nearest) >= 0;
 }
 
-static CzStatus fail_name(const Builder *builder, const void *field, const char *name,
+static CzStatus fail_name(const CzChecklistBuilder *builder, const void *field, const char *name,
                           const char *key, const CzSuggestion *nearest) {
     cz_fail(builder->error, CZ_STATUS_INPUT, "%s: there is no check '%s'", key, name);
     cz_suggest_help(nearest, builder->error);
@@ -402,7 +196,7 @@ static CzStatus fail_name(const Builder *builder, const void *field, const char 
 }
 
 /* Fails for a check in judged_by that does not exist. */
-static CzStatus check_judges_exist(const Builder *builder) {
+static CzStatus check_judges_exist(const CzChecklistBuilder *builder) {
     for (int s = 0; s < builder->n_scene; s++) {
         const CzTexts *judges = builder->scene[s].judged_by;
         for (int i = 0; judges != NULL && i < judges->n_text; i++) {
@@ -414,10 +208,31 @@ static CzStatus check_judges_exist(const Builder *builder) {
     return CZ_OK;
 }
 
+/* Fails for an override that is of no limit or scenario of the profile and of no design rule. */
+static CzStatus check_overrides_exist(const CzChecklistBuilder *builder, bool has_rules) {
+    const CzChecks *checks = &cz_problem_input(builder->problem)->checks;
+    const CzProfile *profile = cz_problem_profile(builder->problem);
+    for (int i = 0; i < checks->n_override; i++) {
+        const char *name = checks->override[i].name;
+        CzSuggestion nearest = {0};
+        if ((profile != NULL &&
+             (CZ_FIND_NAMED(name, CzLimit, profile->limits, profile->n_limits, &nearest) >= 0 ||
+              cz_profile_has_scenario(profile, name, &nearest))) ||
+            (has_rules && cz_design_rule_is(name, &nearest)))
+            continue;
+        cz_fail(builder->error, CZ_STATUS_INPUT,
+                "override: there is no limit, scenario or design rule '%s'", name);
+        cz_suggest_help(&nearest, builder->error);
+        return cz_problem_place_failure(builder->problem, &checks->override[i].name,
+                                        CZ_STATUS_INPUT, builder->error);
+    }
+    return CZ_OK;
+}
+
 /* ---- constraints ----------------------------------------------------------------------------- */
 
 /* Marks the checks that are constraints of the optimiser. */
-static CzStatus choose_constraints(Builder *builder) {
+static CzStatus choose_constraints(CzChecklistBuilder *builder) {
     const CzOptimise *optimise = &cz_problem_input(builder->problem)->optimise;
     const CzTexts *subject_to = &optimise->subject_to;
     const bool is_fit = optimise->given && optimise->n_match > 0;
@@ -445,18 +260,20 @@ static CzStatus choose_constraints(Builder *builder) {
 CzStatus cz_checklist_build(const CzProblem *problem, int n_scene, const CzScene *scene,
                             CzArena *arena, CzChecklist *checklist, CzError *error) {
     *checklist = (CzChecklist){0};
-    Builder builder = {.problem = problem,
-                       .n_scene = n_scene,
-                       .scene = scene,
-                       .arena = arena,
-                       .list = checklist,
-                       .error = error};
+    CzChecklistBuilder builder = {.problem = problem,
+                                  .n_scene = n_scene,
+                                  .scene = scene,
+                                  .arena = arena,
+                                  .list = checklist,
+                                  .error = error};
     const CzInput *input = cz_problem_input(problem);
+    const bool has_rules = !input->checks.given || input->checks.design_rules;
+    CZ_TRY(check_overrides_exist(&builder, has_rules));
     CZ_TRY(append_profile(&builder));
     for (int i = 0; i < input->checks.n_limits; i++)
-        CZ_TRY(append_limit(&builder, &input->checks.limits[i], NULL, false));
-    if (!input->checks.given || input->checks.design_rules)
-        CZ_TRY(append_design_rules(&builder));
+        CZ_TRY(append_own_limit(&builder, &input->checks.limits[i], has_rules));
+    if (has_rules)
+        CZ_TRY(cz_design_rules_append(&builder));
     for (int i = 0; input->optimise.given && i < input->optimise.n_targets; i++)
         CZ_TRY(append_limit(&builder, &input->optimise.targets[i], NULL, true));
     if (input->optimise.given && input->optimise.n_variables > 0 && input->optimise.n_match == 0)
@@ -468,12 +285,12 @@ CzStatus cz_checklist_build(const CzProblem *problem, int n_scene, const CzScene
 CzStatus cz_checklist_aim(const CzProblem *problem, const CzAim *aim, int n_scene,
                           const CzScene *scene, CzArena *arena, CzChecklist *checklist,
                           CzError *error) {
-    Builder builder = {.problem = problem,
-                       .n_scene = n_scene,
-                       .scene = scene,
-                       .arena = arena,
-                       .list = checklist,
-                       .error = error};
+    CzChecklistBuilder builder = {.problem = problem,
+                                  .n_scene = n_scene,
+                                  .scene = scene,
+                                  .arena = arena,
+                                  .list = checklist,
+                                  .error = error};
     if (!isnan(aim->margin)) {
         checklist->aimed_margin = fmax(0, aim->margin);
         checklist->required_margin = fmax(checklist->required_margin, aim->margin);

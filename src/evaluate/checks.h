@@ -31,7 +31,7 @@ typedef struct CzCheck {
     const char *missing; /* reason why it cannot be checked in this problem; NULL otherwise */
     bool is_target;      /* a constraint of the optimiser only, not listed */
     bool is_rule;        /* a rule of problem files, for any design */
-    bool is_provisional; /* the limit is unconfirmed */
+    bool is_provisional; /* the limit, or the scenario of the profile, is unconfirmed */
     bool is_bare;        /* without the reserves of the file */
     bool is_bound;       /* of the caller's aim: it has no margin to keep */
     bool is_constraint;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "evaluate/checklist_parts.h"
 
 #define ROUNDING 1e-9 /* of a value that was written and read again */
 
@@ -58,4 +59,16 @@ CzStatus cz_not_applicable_list(const CzProblem *problem, CzArena *arena, CzChec
         }
     }
     return arena->out_of_memory ? cz_no_memory(error, "the checks") : CZ_OK;
+}
+
+bool cz_asked_is_unconfirmed(const CzProblem *problem, const CzScene *scene) {
+    int n_asked;
+    const CzAskedScenario *asked = cz_problem_profile_scenarios(problem, &n_asked);
+    while (scene->like != NULL)
+        scene = scene->like;
+    for (int i = 0; i < n_asked; i++)
+        if (strcmp(asked[i].scenario->name, scene->name) == 0 &&
+            cz_is_unconfirmed(asked[i].scenario->confidence))
+            return has_it(cz_problem_input(problem), asked[i].scenario, asked[i].speed);
+    return false;
 }

@@ -8,6 +8,7 @@ set(CZ_SOURCES_evaluate
     climbing.c
     compose.c
     design.c
+    design_rules.c
     draws.c
     devices.c
     evaluator_parts.c

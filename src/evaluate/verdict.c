@@ -3,7 +3,8 @@
  *
  *   FAIL         a check fails, or a vehicle climbed, so that later results are not valid
  *   NOT CHECKED  else: a run failed or is incomplete, a check could not be made, or there is none
- *   PROVISIONAL  else: a limit that a check satisfies has not been confirmed
+ *   PROVISIONAL  else: a limit that a check satisfies, or the scenario of the profile in which it
+ *                does, has not been confirmed
  *   pass         else
  *
  * The last two are those of a screening while the profile has requirements that this program cannot

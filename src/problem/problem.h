@@ -5,6 +5,7 @@
 
 #include <string.h>
 
+#include "base/suggest.h"
 #include "crushzone/names.h"
 #include "crushzone/problem.h"
 #include "problem/input.h"
@@ -240,6 +241,9 @@ void cz_problem_write_resolved_in_folder(const CzProblem *problem, FILE *stream)
 /* The profile of the problem: NAME.yaml in profiles/ beside the problem file, then in the share
  * folder. It has the limits and scenarios of the problem's category. Borrowed; NULL for none. */
 const CzProfile *cz_problem_profile(const CzProblem *problem);
+
+/* Whether a profile has a scenario or family of a name, in any category. */
+bool cz_profile_has_scenario(const CzProfile *profile, const char *name, CzSuggestion *nearest);
 
 /* Why a scenario of a profile is run, or not. */
 typedef enum CzStanding {

@@ -109,7 +109,11 @@ static bool read_profile(Expansion *expansion) {
            !reader->arena.out_of_memory;
 }
 
-/* ---- limits ---- */
+/* ---- overrides ---- */
+
+static bool is_one(const char *text, const char *name) {
+    return text != NULL && name != NULL && strcmp(text, name) == 0;
+}
 
 static void override(Expansion *expansion, const CzOverride *over, CzLimit *limit) {
     const bool is_of_minimum = isnan(limit->max);
@@ -132,29 +136,35 @@ static void override(Expansion *expansion, const CzOverride *over, CzLimit *limi
     limit->confidence = over->confidence != NULL ? over->confidence : "user";
 }
 
-/* Gives limits of the profile the numbers of the problem. */
-static void override_limits(Expansion *expansion) {
+/* Confirms the numbers of a scenario of the profile; others are given by a scenario of the file. */
+static void confirm(Expansion *expansion, const CzOverride *over, CzProfileScenario *scenario) {
+    const double *const number[] = {&over->max, &over->min, &over->scale};
+    for (int i = 0; i < 3; i++) {
+        if (isnan(*number[i]))
+            continue;
+        const CzPlace *place = place_of(expansion, number[i]);
+        cz_mistake(&expansion->reader->mistakes, place->node, place->trail,
+                   "'%.60s' is a scenario, which 'override' can only give 'source' and "
+                   "'confidence'" CZ_HELP "a scenario of that name in the file replaces it",
+                   over->name);
+    }
+    if (over->source != NULL)
+        scenario->source = over->source;
+    scenario->confidence = over->confidence != NULL ? over->confidence : "user";
+}
+
+/* Gives limits and scenarios of the profile what the problem says of them. */
+static void apply_overrides(Expansion *expansion) {
     const CzProfile *profile = &expansion->problem->profile;
     for (int i = 0; i < expansion->checks.n_override; i++) {
         const CzOverride *over = &expansion->checks.override[i];
-        CzSuggestion nearest = {0};
-        bool is_found = over->name == NULL;
-        for (int k = 0; k < profile->n_limits && over->name != NULL; k++) {
-            CzLimit *limit = &profile->limits[k];
-            if (limit->name == NULL)
-                continue;
-            cz_suggest(&nearest, over->name, limit->name);
-            if (strcmp(limit->name, over->name) != 0)
-                continue;
-            override(expansion, over, limit);
-            is_found = true;
-        }
-        if (is_found)
-            continue;
-        const CzPlace *place = place_of(expansion, &over->name);
-        cz_mistake(&expansion->reader->mistakes, place->node, place->trail,
-                   "the profile has no limit '%.60s' for this category", over->name);
-        cz_mistake_suggest(&expansion->reader->mistakes, &nearest);
+        for (int k = 0; k < profile->n_limits; k++)
+            if (is_one(over->name, profile->limits[k].name))
+                override(expansion, over, &profile->limits[k]);
+        for (int k = 0; k < profile->n_scenarios; k++)
+            if (is_one(over->name, profile->scenarios[k].name) ||
+                is_one(over->name, profile->scenarios[k].family))
+                confirm(expansion, over, &profile->scenarios[k]);
     }
 }
 
@@ -176,10 +186,6 @@ static bool take_own_scenarios(Expansion *expansion) {
     }
     expansion->own = own;
     return own != NULL;
-}
-
-static bool is_one(const char *text, const char *name) {
-    return text != NULL && name != NULL && strcmp(text, name) == 0;
 }
 
 /* Whether a scenario of the problem stands for one of the profile: by its name, or by its family,
@@ -429,7 +435,7 @@ void cz_profile_expand(CzProblem *problem) {
     expansion.tree = cz_settings_apply_first(reader, &problem->written, problem->setting,
                                              problem->n_setting, "checks.");
     if (expansion.tree.root != NULL && read_checks(&expansion) && read_profile(&expansion)) {
-        override_limits(&expansion);
+        apply_overrides(&expansion);
         check_selection(&expansion);
         expand_scenarios(&expansion);
     }

@@ -80,7 +80,5 @@ void cz_measured_read(CzProblem *problem);
  * nearest word. */
 int cz_input_find_scenario(const CzInput *input, const char *name, CzSuggestion *nearest);
 
-/* Whether a profile has a scenario or family of a name, in any category. */
-bool cz_profile_has_scenario(const CzProfile *profile, const char *name, CzSuggestion *nearest);
 
 #endif

@@ -38,7 +38,8 @@ void cz_corridor_result_sentence(const CzCorridor *corridor, char text[CZ_CORRID
     char low[CZ_FIGURE_ROOM + 1], high[CZ_FIGURE_ROOM + 1], words[CZ_CURVE_WORDS], reason[400];
     const bool is_provisional =
         corridor->exists && corridor->curve[0].verdict == CZ_VERDICT_PROVISIONAL;
-    const char *end = is_provisional ? ", PROVISIONAL: by limits that are not confirmed" : "";
+    const char *end =
+        is_provisional ? ", PROVISIONAL: by limits or scenarios that are not confirmed" : "";
     if (corridor->exists && corridor->edge[0].width + corridor->edge[1].width == 0) {
         snprintf(text, CZ_CORRIDOR_SENTENCE, "Corridor narrower than %s %% of the nominal forces%s",
                  cz_figure_digits(low, 3, 100 * corridor->resolution), end);

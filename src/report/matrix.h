@@ -43,7 +43,8 @@ int cz_matrix_deciding(const CzMatrix *matrix, int row);
 /* Text of a cell: the margin, "pass" or "FAIL" of a yes or no, "?" where it is not checked, with ~
  * in front where the limit is not confirmed; and its style. */
 #define CZ_MATRIX_SIGNS                                                                            \
-    "Smallest margins. ~ limit not confirmed (PROVISIONAL), ? not checked, n/a does not apply, "   \
+    "Smallest margins. ~ limit or scenario not confirmed (PROVISIONAL), ? not checked, n/a does "  \
+    "not apply, "                                                                                  \
     "empty: not judged there."
 enum { CZ_MATRIX_ROOM = CZ_FIGURE_ROOM + 4 };
 const char *cz_matrix_text(const CzCheckResult *check, char text[CZ_MATRIX_ROOM]);

@@ -109,7 +109,7 @@ static void write_assumptions(CzPage *page) {
         "reported as bottoming out.",
         "Override is judged until engagement is lost or a wheel is above its flange; later results "
         "are beyond the validity of the model.",
-        "A pass is not a certificate; PROVISIONAL marks a limit that is not confirmed."};
+        "A pass is not a certificate; PROVISIONAL marks a limit or scenario that is not confirmed."};
     CzMarkup *markup = &page->markup;
     const CzWord *track =
         &cz_word_sets[CZ_WORDS_TRACK].word[cz_problem_input(page->problem)->simulation.track];

@@ -12,8 +12,8 @@
 /* The usual settings, those of the stored results. */
 #define CZ_PULSE_WINDOW 0.12 /* of a sliding mean [s] */
 #define CZ_PULSE_FLOOR                                                                             \
-    0.01                       /* of the largest net force: a smaller force counts as no contact   \
-                                  (ours) */
+    0.01                      /* of the largest net force: a smaller force counts as no contact    \
+                                 (ours) */
 #define CZ_PULSE_SHORTEST 0.0 /* shortest contact window that counts [s] (ours) */
 
 /* The largest |net contact force| [N]. */

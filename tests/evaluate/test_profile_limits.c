@@ -63,8 +63,25 @@ static void an_override_acts_as_the_number_in_the_profile(void **state) {
     end(&in_profile);
 }
 
-/* Scenarios of the category that a problem of one train does not have as its profile has them. */
-static int n_changed_scenarios(const char *more) {
+/* A rule of the design has its physical limit too, which an override does not tighten. */
+static void an_override_reaches_one_design_rule(void **state) {
+    (void)state;
+    Case before = judge(9000, 2000, plain);
+    Case over = judge(9000, 2000,
+                      "checks: {profile: mine, override: {stroke used: {max: 0.2, source: test "
+                      "9}}}\n");
+    assert_in_range(count_changed(&before, &over, "stroke used"), 1, 4);
+    const CzCheckResult *check = find(&over, "stroke used", "crash");
+    assert_near(check->limit, 0.2, 0, 0);
+    assert_string_equal(check->source, "test 9");
+    assert_string_equal(check->confidence, "user");
+    end(&over);
+    end(&before);
+}
+
+/* Judges a train that meets the partners of a profile, whose scenario of a wagon is of confidence
+ * M2. */
+static Case meet(const char *more) {
     char text[1000];
     CzProblem *problem = NULL;
     CzError error = {0};
@@ -72,7 +89,49 @@ static int n_changed_scenarios(const char *more) {
              more);
     if (cz_problem_read_text(text, strlen(text), "more.yaml", ".", NULL, &problem, &error) != CZ_OK)
         fail_msg("%s", error.message);
-    Case made = judged(problem, false);
+    return judged(problem, false);
+}
+
+static CzVerdict verdict_onto_wagon(const char *more) {
+    Case made = meet(more);
+    const CzCheckResult *check = find(&made, "residual closing speed", "wagon");
+    assert_non_null(check);
+    const CzVerdict verdict = check->verdict;
+    end(&made);
+    return verdict;
+}
+
+static void a_pass_in_an_unconfirmed_scenario_is_provisional(void **state) {
+    (void)state;
+    assert_int_equal(verdict_onto_wagon(""), CZ_VERDICT_PROVISIONAL);
+    assert_int_equal(verdict_onto_wagon("checks: {override: {wagon: {confidence: user}}}\n"),
+                     CZ_VERDICT_PASS);
+    assert_int_equal(verdict_onto_wagon("scenarios: [{name: wagon, speed_km_h: 11, trains: [A, "
+                                        "wagon]}]\n"),
+                     CZ_VERDICT_PASS);
+}
+
+/* Lines of a rule and of the scenario that it needs. */
+static int n_lines(const Case *made, const char *name) {
+    int n = 0;
+    for (int i = 0; i < made->evaluation.n_check; i++)
+        n += strcmp(made->evaluation.check[i].name, name) == 0;
+    return n;
+}
+
+static void a_scenario_that_is_left_out_is_one_line(void **state) {
+    (void)state;
+    Case made = meet("checks: {scenarios: [wagon]}\n");
+    assert_int_equal(n_lines(&made, "alike-heavy"), 1);
+    assert_int_equal(n_lines(&made, "bottoming out under overload"), 0);
+    assert_non_null(
+        strstr(find(&made, "alike-heavy", "design")->why, "bottoming out under overload"));
+    end(&made);
+}
+
+/* Scenarios of the category that a problem of one train does not have as its profile has them. */
+static int n_changed_scenarios(const char *more) {
+    Case made = meet(more);
     const int n = made.evaluation.n_changed_scenario;
     for (int i = 0; i < n; i++)
         assert_non_null(strstr(more, made.evaluation.changed_scenario[i]));
@@ -95,6 +154,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_limit_changes_only_its_own_verdicts),
         cmocka_unit_test(an_override_acts_as_the_number_in_the_profile),
+        cmocka_unit_test(an_override_reaches_one_design_rule),
+        cmocka_unit_test(a_pass_in_an_unconfirmed_scenario_is_provisional),
+        cmocka_unit_test(a_scenario_that_is_left_out_is_one_line),
         cmocka_unit_test(a_changed_scenario_is_listed),
     };
     if (enter_work_folder() != 0)

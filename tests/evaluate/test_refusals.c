@@ -91,12 +91,26 @@ static void limits_of_unknown_metrics_are_refused(void **state) {
                    "no check 'nothing'");
 }
 
+static void one_name_is_one_check_and_one_override(void **state) {
+    (void)state;
+    expect_refusal("checks: {limits: [{name: stroke used, metric: interfaces.peak_force_kN, max: "
+                   "1}]}\n",
+                   "there is a design rule 'stroke used'");
+    expect_refusal("checks: {override: {stroke usd: {max: 1}}}\n",
+                   "no limit, scenario or design rule 'stroke usd'");
+    expect_refusal("checks: {override: {stroke used: {min: 1}}}\n",
+                   "design rule 'stroke used' is an upper limit: write 'max'");
+    expect_refusal("checks: {design_rules: false, override: {stroke used: {max: 1}}}\n",
+                   "no limit, scenario or design rule 'stroke used'");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_variable_of_fixed_data_is_refused_by_name),
         cmocka_unit_test(softening_the_opponent_is_refused),
         cmocka_unit_test(bounds_and_starts_that_do_not_fit_are_refused),
         cmocka_unit_test(limits_of_unknown_metrics_are_refused),
+        cmocka_unit_test(one_name_is_one_check_and_one_override),
         cmocka_unit_test(parameters_that_a_metric_does_not_have_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -101,6 +101,10 @@ static void derive_pairs(const CzParameters *parameter, CzConstants *constant) {
         invert_stiffness(parameter->end[k].crush.unloading, constant->end_compliance[k]);
         invert_stiffness(parameter->end[k].crush.second_unloading,
                          constant->end_second_compliance[k]);
+        invert_stiffness(parameter->face.side[k].massless.unloading,
+                         constant->massless_compliance[k]);
+        invert_stiffness(parameter->face.side[k].massless.second_unloading,
+                         constant->massless_second_compliance[k]);
     }
 }
 
@@ -196,19 +200,32 @@ static void start_turned(CzBlock *block) {
     }
 }
 
+/* Finds what some lane of a block has: the kernel leaves out the rest. */
+static void find_parts(CzBlock *block) {
+    const CzFaceRows *face = &block->parameter.face;
+    for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
+        block->has_tilts |= block->parameter.tilts[i] != 0.0;
+        block->can_climb |= face->rib_capacity[i] != 0.0 || face->friction[i] != 0.0 ||
+                            face->overlap[i] < CZ_MISSING;
+        for (int side = 0; side < 2; ++side) {
+            block->has_shear_off[side] |=
+                block->parameter.coupler.side[side].shear.force[i] < CZ_NEVER;
+            block->has_massless[side] |= face->side[side].has_massless[i] > 0.5;
+        }
+    }
+    block->can_climb |= block->has_tilts;
+}
+
 /* A block at t = 0; 0 when there is no memory. */
 static int start_block(CzBlock *block, const CzLanes *lanes, size_t base, CzArena *arena) {
     block->parameter = lanes->block[base / CZ_LANE_BLOCK].parameter;
     block->velocity = lanes->block[base / CZ_LANE_BLOCK].velocity;
     if (!copy_curves(&block->curve, lanes, base, arena))
         return 0;
+    find_parts(block);
     for (int side = 0; side < 2; ++side)
-        for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
-            block->has_shear_off[side] |=
-                block->parameter.coupler.side[side].shear.force[i] < CZ_NEVER;
-            block->has_massless[side] |= block->parameter.face.side[side].has_massless[i] > 0.5;
+        for (int i = 0; i < CZ_LANE_BLOCK; ++i)
             block->end_peak[side].at[i] = NAN;
-        }
     derive_constants(&block->parameter, &block->constant);
     derive_ahead(lanes, &block->constant, base);
     start_extremes(&block->extreme);

@@ -35,11 +35,13 @@ typedef struct CzConstants {
     CzRow side_compliance[2];   /* likewise for the side buffers */
     CzRow end_compliance[2];    /* 1 / first unloading stiffness of the crush zone [m/N] */
     CzRow end_second_compliance[2]; /* 1 / its second one */
-    CzRow fold_compliance[2];       /* 1 / pitch guidance stiffness [rad/(N m)] */
-    CzRow grip_compliance;          /* 1 / vertical stiffness of engaged faces [m/N] */
-    CzRow body_mass;                /* 0 of a vehicle that cannot move [kg] */
-    CzRow wheelset_inertia;         /* about its axle; 0 without wheels [kg m2] */
-    CzRow slaved_end_ahead; /* 1 where the rear end of the car ahead has no mass of its own */
+    CzRow massless_compliance[2];   /* the same of a crush zone without end mass */
+    CzRow massless_second_compliance[2];
+    CzRow fold_compliance[2]; /* 1 / pitch guidance stiffness [rad/(N m)] */
+    CzRow grip_compliance;    /* 1 / vertical stiffness of engaged faces [m/N] */
+    CzRow body_mass;          /* 0 of a vehicle that cannot move [kg] */
+    CzRow wheelset_inertia;   /* about its axle; 0 without wheels [kg m2] */
+    CzRow slaved_end_ahead;   /* 1 where the rear end of the car ahead has no mass of its own */
 } CzConstants;
 #define CZ_CONSTANT(member) CZ_ROW_OF(CzConstants, member)
 
@@ -132,13 +134,16 @@ typedef struct CzBlock {
     CzMemory memories[2];   /* `memory` and `next_memory` point to them in turn */
     CzPower powers[2];      /* `power` and `last_power` point to them in turn */
     CzBlockCurves curve;
-    int has_shear_off[2];     /* some lane's coupler of side A, B shears off */
-    int has_massless[2];      /* some lane's side A, B has a crush zone without end mass */
-    CzPeak end_peak[2];       /* of the rear and front crush zone */
-    CzRow coupler_reach;      /* closure up to which resting couplers do nothing [m] */
-    CzRow face_reach;         /* likewise for the faces */
-    int couplers_rest;        /* the last evaluation of the couplers changed nothing */
-    int faces_rest;           /* likewise for the faces */
+    int has_tilts;        /* lines and faces tilt in some lane */
+    int can_climb;        /* some lane's faces have ribs, friction or a limited overlap, or tilt */
+    int has_shear_off[2]; /* some lane's coupler of side A, B shears off */
+    int has_massless[2];  /* some lane's side A, B has a crush zone without end mass */
+    CzPeak end_peak[2];   /* of the rear and front crush zone */
+    CzRow coupler_reach;  /* closure up to which resting couplers do nothing [m] */
+    CzRow face_reach;     /* likewise for the faces */
+    int couplers_rest;    /* the last evaluation of the couplers changed nothing */
+    int faces_rest;       /* likewise for the faces */
+    int has_looked;       /* rows of the cars ahead have been read */
     int leaves_nothing_out;   /* evaluates couplers and faces even where that changes nothing, for
                                  comparison in tests */
     CzBudgetRows *budget_sum; /* sum of the records below over all steps, times the step */

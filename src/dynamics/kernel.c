@@ -192,12 +192,25 @@ static void commit(CzDynamics *dynamics, double step, double time) {
         commit_block(dynamics, &dynamics->block[i], step, time);
 }
 
+/* Cars without running gear move along the track only. */
+static void advance_along(CzBlock *d, double step, int first) {
+    static const int along[] = {CZ_DOF(body.x), CZ_DOF(end[0].x), CZ_DOF(end[1].x)};
+    for (int k = 0; k < 3; ++k)
+        cz_two_step_advance(CZ_LANE_BLOCK, step, first, cz_row_of(&d->position, along[k]),
+                            cz_row_of(&d->velocity, along[k]),
+                            cz_const_row_of(&d->acceleration, along[k]),
+                            cz_row_of(&d->last_acceleration, along[k]));
+}
+
 /* State and impulse are each one piece of rows. */
 static void advance_block(const CzDynamics *dynamics, int index, double step, int first) {
     CzBlock *d = &dynamics->block[index];
     advance_rails(dynamics, index);
-    cz_two_step_advance(dynamics->n_state, step, first, d->position.body.x, d->velocity.body.x,
-                        d->acceleration.body.x, d->last_acceleration.body.x);
+    if (dynamics->lanes->has.full_cars)
+        cz_two_step_advance(dynamics->n_state, step, first, d->position.body.x, d->velocity.body.x,
+                            d->acceleration.body.x, d->last_acceleration.body.x);
+    else
+        advance_along(d, step, first);
     cz_two_step_advance(CZ_LANE_BLOCK, step, first, d->impulse.position, d->impulse.velocity,
                         d->impulse.force, d->impulse.last_force);
 }

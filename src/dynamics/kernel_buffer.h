@@ -44,7 +44,7 @@ static double buffer_force(const Chain *chain, int side, size_t i, double stroke
 }
 
 /* Linearises a buffer. The hysteresis starts from its state at the committed stroke. */
-static double linearise_buffer(Chain *chain, int side, int again) {
+static int linearise_buffer(Chain *chain, int side, int again) {
     const Buffer *buffer = &((const BufferChain *)chain)->buffer[side];
     const double *restrict compliance = buffer->compliance;
     const double *restrict committed = buffer->memory->stroke, *restrict rate =
@@ -56,20 +56,23 @@ static double linearise_buffer(Chain *chain, int side, int again) {
     const double *restrict offset = again ? buffer->next->offset : buffer->memory->offset;
     double *restrict next_offset = again ? unused : buffer->next->offset;
     CurveAt curve;
-    Trial trial;
-    choose_stroke(chain, side, again, trial.stroke);
-    evaluate_curve(loading, trial.stroke, &curve);
+    SpringState trial;
+    choose_stroke(chain, side, again, trial.at);
+    evaluate_curve(loading, trial.at, &curve);
     CZ_LANES (i) {
         const CzBufferLaw law = buffer_law(rows, loading, i);
         const CzBufferResponse response =
-            cz_buffer_of(&law, compliance[i], curve.value[i], curve.slope[i], trial.stroke[i],
-                         trial.stroke[i] - committed[i], rate[i], offset[i], step);
+            cz_buffer_of(&law, compliance[i], curve.value[i], curve.slope[i], trial.at[i],
+                         trial.at[i] - committed[i], rate[i], offset[i], step);
         trial.force[i] = response.force;
         trial.up[i] = response.loading;
         trial.down[i] = response.unloading;
         next_offset[i] = response.offset;
     }
-    return accept(&chain->now, side, again, &trial);
+    const int changes = !again || some_deviate(&chain->now, trial.force);
+    if (changes)
+        accept(&chain->now, side, again, &trial);
+    return changes;
 }
 
 static const SpringLaw buffers = {linearise_buffer, buffer_force, NULL};

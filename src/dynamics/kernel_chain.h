@@ -25,9 +25,9 @@ enum { CHAIN_ITERATIONS = 60, MOST_PLASTIC = 6 };
 typedef struct Chain Chain;
 
 /* Linearises a member of one side: first about its committed stroke, later (`again`) about its
- * stroke under the chain's force, in the lanes where it does not satisfy its law. Returns the
- * number of these lanes. */
-typedef double Linearise(Chain *chain, int side, int again);
+ * stroke under the chain's force, in the lanes where it does not satisfy its law. Returns whether
+ * there are such lanes. */
+typedef int Linearise(Chain *chain, int side, int again);
 
 /* Force of the spring of one side at a stroke, in one lane: the law that Linearise linearises. */
 typedef double ForceAt(const Chain *chain, int side, size_t lane, double stroke);
@@ -58,6 +58,7 @@ typedef struct {
 typedef struct {
     const double *stroke, *energy, *plastic_energy; /* committed */
     double *next, *next_energy, *next_plastic_energy;
+    int is_missing; /* in all lanes: all of it is and remains 0 */
 } Spring;
 
 /* A spring linearised about a stroke. */
@@ -74,10 +75,9 @@ typedef struct {
 /* State of the solution of a chain. */
 typedef struct {
     _Alignas(64) CzRow force;
-    CzRow lowest;    /* smallest force that it can carry */
-    CzRow active;    /* 1 where the chain exists */
-    CzRow low, high; /* bracket of the solution */
-    CzRow distance;  /* largest deviation of a member from its law [N] */
+    CzRow lowest;   /* smallest force that it can carry */
+    CzRow active;   /* 1 where the chain exists */
+    CzRow distance; /* largest deviation of a member from its law [N] */
     CzRow falls; /* above 0 where a falling part of a law begins or ends in this step, or the force
                     drops far */
     CzRow top;   /* largest strength at which a member began to yield in this step */
@@ -101,12 +101,6 @@ struct Chain {
     ChainState now;
 };
 
-/* A trial of a member: its stroke, its law's force there, and the compliances. */
-typedef struct {
-    _Alignas(64) CzRow stroke;
-    CzRow force, up, down;
-} Trial;
-
 /* Sets up a chain with two plastic members that have curves: `last` and `next` are its force,
  * committed and new. */
 static void begin_chain(Chain *chain, const SpringLaw *law, const double *closure, double step,
@@ -117,6 +111,7 @@ static void begin_chain(Chain *chain, const SpringLaw *law, const double *closur
     chain->last = last;
     chain->next = next;
     chain->law = law;
+    chain->spring[0].is_missing = chain->spring[1].is_missing = 0;
 }
 
 /* A tube or an anti-climber whose strength does not depend on the closing speed. */
@@ -138,19 +133,22 @@ static void list_energies(Spring *side, const double *energy, double *next_energ
     side->next_plastic_energy = next_plastic_energy;
 }
 
-/* Sum of the members' shortenings less the closure, and its derivative, at the chain's present
- * force. */
-static void unbalance(const Chain *chain, CurveAt *restrict sum) {
+/* Sum of the members' shortenings less the closure, and its derivative, at a force. */
+static inline void unbalance(const Chain *chain, const double *restrict force,
+                             CurveAt *restrict sum) {
     const ChainState *now = &chain->now;
     CZ_LANES (i) {
-        sum->value[i] = chain->compliance[i] * now->force[i] - chain->closure[i];
+        sum->value[i] = chain->compliance[i] * force[i] - chain->closure[i];
         sum->slope[i] = chain->compliance[i];
     }
     for (int side = 0; side < 2; ++side) {
         const SpringState *spring = &now->spring[side];
+        if (chain->spring[side].is_missing)
+            continue;
         CZ_LANES (i) {
-            const double excess = now->force[i] - spring->force[i];
-            const double c = excess > 0.0 ? spring->up[i] : spring->down[i];
+            const double excess = force[i] - spring->force[i];
+            const double up = spring->up[i], down = spring->down[i];
+            const double c = excess > 0.0 ? up : down;
             sum->value[i] += spring->at[i] + excess * c;
             sum->slope[i] += c;
         }
@@ -161,62 +159,77 @@ static void unbalance(const Chain *chain, CurveAt *restrict sum) {
         const double *restrict stroke = chain->plastic[member].stroke;
         const PlasticState *plastic = &now->plastic[member];
         CZ_LANES (i) {
-            const double yields =
-                now->force[i] > plastic->strength[i] ? plastic->compliance[i] : 0.0;
-            sum->value[i] += stroke[i] + cz_plastic_crush(now->force[i], plastic->strength[i],
-                                                          plastic->compliance[i]);
+            const double strength = plastic->strength[i], compliance = plastic->compliance[i];
+            const double yields = force[i] > strength ? compliance : 0.0;
+            sum->value[i] += stroke[i] + cz_plastic_crush(force[i], strength, compliance);
             sum->slope[i] += yields;
         }
     }
 }
 
+/* A force that is sought, and its bracket. */
+typedef struct {
+    _Alignas(64) CzRow force;
+    CzRow low, high;
+} Sought;
+
 /* One Newton step in all lanes that have not converged; returns whether all have. */
-static int improve(ChainState *now, const CurveAt *restrict sum) {
-    double n_moving = 0.0;
-    CZ_LANES_SUM(i, n_moving) {
-        const double f = now->force[i];
-        const double off = fabs(sum->value[i]) > CHAIN_TOLERANCE ? now->active[i] : 0.0;
+static inline int improve(const ChainState *now, const CurveAt *restrict sum,
+                          Sought *restrict sought) {
+    double some_move = 0.0;
+    CZ_LANES_MOST(i, some_move) {
+        const double f = sought->force[i], low = sought->low[i], high = sought->high[i];
+        const double lowest = now->lowest[i], active = now->active[i];
+        const double off = fabs(sum->value[i]) > CHAIN_TOLERANCE ? active : 0.0;
         const double released = sum->value[i] > 0.0 ? 1.0 : 0.0;
-        const double slack = f <= now->lowest[i] ? released : 0.0;
+        const double slack = f <= lowest ? released : 0.0;
         const double moving = off > slack ? 1.0 : 0.0;
-        const double new_high = sum->value[i] > 0.0 ? f : now->high[i];
-        const double new_low = sum->value[i] > 0.0 ? now->low[i] : f;
+        const double new_high = sum->value[i] > 0.0 ? f : high;
+        const double new_low = sum->value[i] > 0.0 ? low : f;
         const double newton = f - sum->value[i] / cz_larger(sum->slope[i], 1e-30);
         const double middle = 0.5 * (new_low + new_high);
         const double above = newton > new_low ? newton : middle;
         const double inside = above < new_high ? above : middle;
-        const double next = cz_larger(inside, now->lowest[i]);
-        now->force[i] = moving > 0.0 ? next : f;
-        now->low[i] = moving > 0.0 ? new_low : now->low[i];
-        now->high[i] = moving > 0.0 ? new_high : now->high[i];
-        n_moving += moving;
+        const double next = cz_larger(inside, lowest);
+        sought->force[i] = moving > 0.0 ? next : f;
+        sought->low[i] = moving > 0.0 ? new_low : low;
+        sought->high[i] = moving > 0.0 ? new_high : high;
+        some_move = cz_larger(some_move, moving);
     }
-    return n_moving == 0.0;
+    return some_move == 0.0;
 }
 
 /* Finds the chain's force in all lanes, starting at the present one; returns whether all
- * converged. */
+ * converged. What changes from step to step is in rows of its own, which stay in registers. */
 static int solve_linear(Chain *chain) {
-    CZ_LANES (i) {
-        chain->now.low[i] = -1e10;
-        chain->now.high[i] = 1e10;
-    }
+    ChainState *now = &chain->now;
+    Sought sought;
     CurveAt sum;
+    CZ_LANES (i) {
+        sought.force[i] = now->force[i];
+        sought.low[i] = -1e10;
+        sought.high[i] = 1e10;
+    }
     int arrived = 0;
     for (int iteration = 0; iteration < CHAIN_ITERATIONS && !arrived; ++iteration) {
-        unbalance(chain, &sum);
-        arrived = improve(&chain->now, &sum);
+        unbalance(chain, sought.force, &sum);
+        arrived = improve(now, &sum, &sought);
+    }
+    CZ_LANES (i) {
+        now->force[i] = sought.force[i];
     }
     return arrived;
 }
 
 /* Stroke about which a spring is linearised: the committed one, or that under the chain's force. */
-static void choose_stroke(const Chain *chain, int side, int again, double *restrict stroke) {
+static inline void choose_stroke(const Chain *chain, int side, int again, double *restrict stroke) {
     const double *restrict committed = chain->spring[side].stroke;
     const double *restrict force = chain->now.force;
     const SpringState *spring = &chain->now.spring[side];
     if (!again) {
-        memcpy(stroke, committed, sizeof(CzRow));
+        CZ_LANES (i) {
+            stroke[i] = committed[i];
+        }
         return;
     }
     CZ_LANES (i) {
@@ -225,29 +238,42 @@ static void choose_stroke(const Chain *chain, int side, int again, double *restr
     }
 }
 
-/* Accepts the linearisation of a spring about a trial stroke in lanes where it is the first one or
- * where the law's force there differs from the chain's; returns the number of these lanes. */
-static double accept(ChainState *now, int side, int again, const Trial *restrict trial) {
-    SpringState *spring = &now->spring[side];
-    const double first = again ? 0.0 : 1.0;
-    double n_changed = 0.0;
-    CZ_LANES_SUM(i, n_changed) {
-        const double off = now->active[i] * fabs(trial->force[i] - now->force[i]);
-        const double changed = first + (off > LAW_TOLERANCE ? 1.0 : 0.0);
-        now->distance[i] = cz_larger(now->distance[i], off);
-        spring->at[i] = changed > 0.0 ? trial->stroke[i] : spring->at[i];
-        spring->force[i] = changed > 0.0 ? trial->force[i] : spring->force[i];
-        spring->up[i] = changed > 0.0 ? trial->up[i] : spring->up[i];
-        spring->down[i] = changed > 0.0 ? trial->down[i] : spring->down[i];
-        n_changed += changed;
+/* Whether in some lane the law of a spring at its trial stroke differs from the chain's force. */
+static inline int some_deviate(ChainState *now, const double *restrict force) {
+    double *restrict distance = now->distance;
+    double deviates = 0.0;
+    CZ_LANES_MOST(i, deviates) {
+        const double off = now->active[i] * fabs(force[i] - now->force[i]);
+        distance[i] = cz_larger(distance[i], off);
+        deviates = cz_larger(deviates, off > LAW_TOLERANCE ? 1.0 : 0.0);
     }
-    return n_changed;
+    return deviates > 0.0;
+}
+
+/* Accepts the linearisation of a spring about its trial stroke: in all lanes, or `again` where the
+ * law's force there differs from the chain's. */
+static void accept(ChainState *now, int side, int again, const SpringState *restrict trial) {
+    SpringState *restrict spring = &now->spring[side];
+    if (!again) {
+        memcpy(spring, trial, sizeof *spring);
+        return;
+    }
+    CZ_LANES (i) {
+        const double off = now->active[i] * fabs(trial->force[i] - now->force[i]);
+        const double at = trial->at[i], force = trial->force[i];
+        const double up = trial->up[i], down = trial->down[i];
+        spring->at[i] = off > LAW_TOLERANCE ? at : spring->at[i];
+        spring->force[i] = off > LAW_TOLERANCE ? force : spring->force[i];
+        spring->up[i] = off > LAW_TOLERANCE ? up : spring->up[i];
+        spring->down[i] = off > LAW_TOLERANCE ? down : spring->down[i];
+    }
 }
 
 /* A spring that no lane has is rigid. */
-static double leave_out_spring(ChainState *now, int side) {
-    memset(&now->spring[side], 0, sizeof now->spring[side]);
-    return 0.0;
+static int leave_out_spring(ChainState *now, int side, int again) {
+    if (!again)
+        memset(&now->spring[side], 0, sizeof now->spring[side]);
+    return 0;
 }
 
 /* Linearises a plastic member about its committed stroke: strength with its rise, and rate
@@ -267,32 +293,32 @@ static void prepare_plastic(Chain *chain, int number) {
     }
 }
 
-/* Stroke of a plastic member under the chain's force; returns in how many lanes it yields. */
-static double trial_of_plastic(const Chain *chain, int number, double *restrict stroke) {
+/* Stroke of a plastic member under the chain's force; returns whether it yields in some lane. */
+static int trial_of_plastic(const Chain *chain, int number, double *restrict stroke) {
     const double *restrict committed = chain->plastic[number].stroke;
     const double *restrict force = chain->now.force;
     const PlasticState *plastic = &chain->now.plastic[number];
-    double n_crushing = 0.0;
-    CZ_LANES_SUM(i, n_crushing) {
+    double some_crush = 0.0;
+    CZ_LANES_MOST(i, some_crush) {
         stroke[i] =
             committed[i] + cz_plastic_crush(force[i], plastic->strength[i], plastic->compliance[i]);
-        n_crushing += stroke[i] > committed[i] ? 1.0 : 0.0;
+        some_crush = cz_larger(some_crush, stroke[i] > committed[i] ? 1.0 : 0.0);
     }
-    return n_crushing;
+    return some_crush > 0.0;
 }
 
 /* Linearises a plastic member about a trial stroke where its strength there, `curve`, differs from
  * the chain's force: with its tangent where the strength rises, such as in a stop; with constant
- * strength where it falls. Returns the number of these lanes. */
-static double accept_plastic(Chain *chain, int number, const double *restrict stroke,
-                             const CurveAt *restrict curve) {
+ * strength where it falls. Returns whether there are such lanes. */
+static int accept_plastic(Chain *chain, int number, const double *restrict stroke,
+                          const CurveAt *restrict curve) {
     ChainState *now = &chain->now;
     PlasticState *plastic = &now->plastic[number];
     const double *restrict committed = chain->plastic[number].stroke;
     const double *restrict rate = chain->plastic[number].rate;
     const double step = chain->step;
-    double n_changed = 0.0;
-    CZ_LANES_SUM(i, n_changed) {
+    double some_change = 0.0;
+    CZ_LANES_MOST(i, some_change) {
         const double moved = stroke[i] - committed[i];
         const double tangent = cz_positive_part(curve->slope[i]);
         const double compliance = cz_plastic_compliance(curve->value[i], tangent, rate[i], step);
@@ -303,28 +329,28 @@ static double accept_plastic(Chain *chain, int number, const double *restrict st
         now->distance[i] = cz_larger(now->distance[i], off);
         plastic->strength[i] = changed > 0.0 ? start : plastic->strength[i];
         plastic->compliance[i] = changed > 0.0 ? compliance : plastic->compliance[i];
-        n_changed += changed;
+        some_change = cz_larger(some_change, changed);
     }
-    return n_changed;
+    return some_change > 0.0;
 }
 
 /* The same for a member with a curve. */
-static double relinearise_plastic(Chain *chain, int number) {
+static int relinearise_plastic(Chain *chain, int number) {
     const Plastic *member = &chain->plastic[number];
     const double *restrict rise = member->rise;
     _Alignas(64) CzRow stroke;
     CurveAt curve;
-    if (trial_of_plastic(chain, number, stroke) == 0.0)
-        return 0.0;
+    if (!trial_of_plastic(chain, number, stroke))
+        return 0;
     count_turns(member->curve, member->stroke, stroke, chain->now.falls);
     evaluate_curve(member->curve, stroke, &curve);
     CZ_LANES (i) {
         curve.value[i] *= 1.0 + rise[i];
         curve.slope[i] *= 1.0 + rise[i];
     }
-    const double n_changed = accept_plastic(chain, number, stroke, &curve);
-    chain->falls |= n_changed > 0.0; /* perhaps: a breakpoint to a steeper slope counts too */
-    return n_changed;
+    const int changed = accept_plastic(chain, number, stroke, &curve);
+    chain->falls |= changed; /* perhaps: a breakpoint to a steeper slope counts too */
+    return changed;
 }
 
 #endif

@@ -43,11 +43,11 @@ static void search_lanes(Chain *chain, CzPublished *published, int holds) {
 }
 
 static int some_lane_falls(const ChainState *now) {
-    double n_falling = 0.0;
-    CZ_LANES_SUM(i, n_falling) {
-        n_falling += now->falls[i];
+    double falls = 0.0;
+    CZ_LANES_MOST(i, falls) {
+        falls = cz_larger(falls, now->falls[i]);
     }
-    return n_falling > 0.0;
+    return falls > 0.0;
 }
 
 /* Linearises members again until all of them satisfy their laws in the active lanes. `others`
@@ -57,13 +57,13 @@ static int settle_chain(Chain *chain, CzPublished *published, Linearise *others,
     int n_anew = 0, settled = 0;
     for (int pass = 1; found && !settled && pass < CHAIN_PASSES; ++pass) {
         memset(chain->now.distance, 0, sizeof(CzRow));
-        double n_changed = chain->law->linearise(chain, 0, 1) + chain->law->linearise(chain, 1, 1);
+        int changed = chain->law->linearise(chain, 0, 1) | chain->law->linearise(chain, 1, 1);
         for (int member = 0; member < chain->n_curve; ++member)
             if (!chain->plastic[member].is_missing)
-                n_changed += relinearise_plastic(chain, member);
+                changed |= relinearise_plastic(chain, member);
         if (others != NULL)
-            n_changed += others(chain, 0, 1) + others(chain, 1, 1);
-        settled = n_changed == 0.0;
+            changed |= others(chain, 0, 1) | others(chain, 1, 1);
+        settled = !changed;
         if (!settled) {
             found = solve_linear(chain);
             ++n_anew;
@@ -104,6 +104,8 @@ static void move_springs(const Chain *chain) {
     for (int side = 0; side < 2; ++side) {
         const Spring *rows = &chain->spring[side];
         const SpringState *spring = &now->spring[side];
+        if (rows->is_missing)
+            continue;
         CZ_LANES (i) {
             const double excess = now->active[i] * (now->force[i] - spring->force[i]);
             const double c = excess > 0.0 ? spring->up[i] : spring->down[i];
@@ -163,21 +165,22 @@ static void chain_top(Chain *chain) {
 
 /* Whether no chain pushes, and no chain exists that can pull. */
 static int is_slack(const ChainState *now) {
-    double n_busy = 0.0;
-    CZ_LANES_SUM(i, n_busy) {
+    double busy = 0.0;
+    CZ_LANES_MOST(i, busy) {
         const double pulls = now->lowest[i] < 0.0 ? now->active[i] : 0.0;
-        n_busy += fabs(now->force[i]) + pulls;
+        const double idle = fabs(now->force[i]) + pulls;
+        busy = cz_larger(busy, idle == 0.0 ? 0.0 : 1.0); /* a NaN is busy */
     }
-    return n_busy == 0.0;
+    return busy == 0.0;
 }
 
 /* Whether some lane is within reach; so is a closure that is not a number. */
 static int is_within(const double *restrict closure, const double *restrict reach) {
-    double n_near = 0.0;
-    CZ_LANES_SUM(i, n_near) {
-        n_near += closure[i] <= reach[i] ? 0.0 : 1.0;
+    double near = 0.0;
+    CZ_LANES_MOST(i, near) {
+        near = cz_larger(near, closure[i] <= reach[i] ? 0.0 : 1.0);
     }
-    return n_near > 0.0;
+    return near > 0.0;
 }
 
 #endif

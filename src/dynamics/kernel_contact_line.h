@@ -24,18 +24,37 @@ typedef struct {
 
 /* ---- geometry ---- */
 
-static void line_up_contact(CzCarrier a, CzCarrier b, const CzPairRows *at,
-                            const double *restrict tilts, Contact *restrict contact) {
+/* Mean normal: it turns at the mean rate of both carriers. */
+static void line_up_normal(CzCarrier a, CzCarrier b, const double *restrict tilts,
+                           Contact *restrict contact) {
     CZ_LANES (i) {
-        CzPair pair = cz_pair_of(a, b, at, i);
-        pair.z = tilts[i] * pair.z;
-
-        /* Mean normal: it turns at the mean rate of both carriers. */
         const double sum_x = a.turned->cosine[i] + b.turned->cosine[i];
         const double sum_z = tilts[i] * (a.turned->sine[i] + b.turned->sine[i]);
         const double size = sqrt(sum_x * sum_x + sum_z * sum_z);
-        const double nx = sum_x / size, nz = sum_z / size;
+        contact->normal_x[i] = sum_x / size;
+        contact->normal_z[i] = sum_z / size;
+    }
+}
 
+/* Where nothing tilts, it is along the track. */
+static void level_normal(Contact *restrict contact) {
+    CZ_LANES (i) {
+        contact->normal_x[i] = 1.0;
+        contact->normal_z[i] = 0.0;
+    }
+}
+
+static void line_up_contact(const CzBlock *d, CzCarrier a, CzCarrier b, const CzPairRows *at,
+                            Contact *restrict contact) {
+    const double *restrict tilts = d->parameter.tilts;
+    if (d->has_tilts)
+        line_up_normal(a, b, tilts, contact);
+    else
+        level_normal(contact);
+    CZ_LANES (i) {
+        CzPair pair = cz_pair_of(a, b, at, i);
+        pair.z = tilts[i] * pair.z;
+        const double nx = contact->normal_x[i], nz = contact->normal_z[i];
         const CzPair met = cz_met_midway(a, b, pair, i);
         const double vx = met.a.velocity_x - met.b.velocity_x;
         const double vz = met.a.velocity_z - met.b.velocity_z;
@@ -43,8 +62,6 @@ static void line_up_contact(CzCarrier a, CzCarrier b, const CzPairRows *at,
         contact->rate[i] = nx * vx + nz * vz;
         contact->slip_vertical[i] = nz * pair.x - nx * pair.z;
         contact->slip_rate[i] = nx * vz - nz * vx;
-        contact->normal_x[i] = nx;
-        contact->normal_z[i] = nz;
         contact->arm_x[0][i] = met.a.arm_x;
         contact->arm_z[0][i] = met.a.arm_z;
         contact->arm_x[1][i] = met.b.arm_x;

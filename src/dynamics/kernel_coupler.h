@@ -15,11 +15,12 @@
 #include "laws/slider.h"
 
 static int some_are_released(const CzCouplerMemory *restrict memory) {
-    double n_released = 0.0;
-    CZ_LANES_SUM(i, n_released) {
-        n_released += memory->side[0].shear[i] + memory->side[1].shear[i] > 0.0 ? 1.0 : 0.0;
+    double released = 0.0;
+    CZ_LANES_MOST(i, released) {
+        const double travel = memory->side[0].shear[i] + memory->side[1].shear[i];
+        released = cz_larger(released, travel > 0.0 ? 1.0 : 0.0);
     }
-    return n_released > 0.0;
+    return released > 0.0;
 }
 
 static void engage_couplers(CzBlock *d, const CouplerLine *restrict line,

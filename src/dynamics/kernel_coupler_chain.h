@@ -61,7 +61,7 @@ static int couplers_are_slack(const CouplerChain *of, double *restrict reach) {
     if (!is_slack(&chain->now))
         return 0;
     CurveAt sum;
-    unbalance(chain, &sum);
+    unbalance(chain, chain->now.force, &sum);
     CZ_LANES (i) {
         const double of_chain = closure[i] + sum.value[i] - REACH_MARGIN;
         const double of_hinges = of->damage[i] >= 1.0 ? CZ_NEVER : 0.0; /* not engaged up to here */

@@ -137,8 +137,8 @@ static int pivots_are_near(const CzBlock *d) {
     const CzCarrier ea = end_at(d, 0), ba = body_at(d, 0);
     const CzCarrier eb = end_at(d, 1), bb = body_at(d, 1);
     const double *restrict reach = d->coupler_reach;
-    double n_near = 0.0;
-    CZ_LANES_SUM(i, n_near) {
+    double near = 0.0;
+    CZ_LANES_MOST(i, near) {
         const double on_a = rows->side[0].on_end[i], on_b = rows->side[1].on_end[i];
         const double x_a = rows->pivot.x[0][i], x_b = rows->pivot.x[1][i];
         const double z_a = rows->pivot.z[0][i], z_b = rows->pivot.z[1][i];
@@ -149,9 +149,10 @@ static int pivots_are_near(const CzBlock *d) {
         const double moved = chosen(on_b, eb.displacement->x[i], bb.displacement->x[i]) -
                              chosen(on_a, ea.displacement->x[i], ba.displacement->x[i]);
         const double along = rows->pivot.distance[i] + moved + (bx - x_b) - (ax - x_a);
-        n_near += rows->length[i] - along <= reach[i] ? 0.0 : 1.0; /* a NaN counts as near */
+        const double closure = rows->length[i] - along;
+        near = cz_larger(near, closure <= reach[i] ? 0.0 : 1.0); /* a NaN counts as near */
     }
-    return n_near > 0.0;
+    return near > 0.0;
 }
 
 /* Change of the height of one underframe over the other. */

@@ -12,7 +12,7 @@ static void draw_gears(CzBlock *d) {
     double *restrict force = d->published.draw_gear.force;
     double *restrict power = d->power->draw_gear;
     Contact contact;
-    line_up_contact(body_at(d, 0), body_at(d, 1), &rows->contact, d->parameter.tilts, &contact);
+    line_up_contact(d, body_at(d, 0), body_at(d, 1), &rows->contact, &contact);
     CZ_LANES (i) {
         force[i] = cz_draw_gear(rows->stiffness[i], rows->slack[i], contact.closure[i]);
         power[i] += force[i] * contact.rate[i];

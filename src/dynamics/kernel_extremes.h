@@ -32,9 +32,16 @@ static void interface_extremes(CzBlock *d, double time) {
     }
 }
 
+static void face_extremes(CzBlock *d) {
+    CzExtremes *kept = &d->extreme;
+    keep_larger(kept->face_force, d->published.face.force);
+    keep_larger(kept->face_force, d->published.face.top);
+    keep_larger(kept->face_closure, d->published.face.closure);
+}
+
 /* Updates the smallest distances of the faces from climbing. `chain` is the chain's own force: it
  * remains after the faces have passed each other. */
-static void face_extremes(CzBlock *d, double time) {
+static void climbing_extremes(CzBlock *d, double time) {
     const double *restrict normal = d->published.face.force, *restrict remaining =
                                                                  d->published.face.remaining;
     const double *restrict demand = d->published.face.demand_vertical, *restrict ready =
@@ -61,9 +68,6 @@ static void face_extremes(CzBlock *d, double time) {
         kept->face_climbed[i] = cz_larger(kept->face_climbed[i], passed);
         kept->climb_time[i] = cz_larger(kept->climb_time[i], passed > 0.0 ? -time : CZ_NOT_YET);
     }
-    keep_larger(kept->face_force, normal);
-    keep_larger(kept->face_force, d->published.face.top);
-    keep_larger(kept->face_closure, d->published.face.closure);
     keep_larger_size(kept->face_demand_vertical, demand);
 }
 
@@ -136,7 +140,9 @@ static void chain_extremes(CzBlock *d) {
 static void extremes(const CzLanes *lanes, CzBlock *d, double time) {
     CzExtremes *kept = &d->extreme;
     interface_extremes(d, time);
-    face_extremes(d, time);
+    face_extremes(d);
+    if (d->can_climb)
+        climbing_extremes(d, time);
     if (lanes->has.couplers)
         coupler_extremes(d);
     if (lanes->has.side_buffers)

@@ -13,6 +13,18 @@
 
 /* ---- along the normal ---- */
 
+static void list_massless(const CzBlock *d, int side, const CzMasslessMemory *memory,
+                          CzMasslessMemory *next, Massless *massless) {
+    const CzFaceRows *rows = &d->parameter.face;
+    massless->exists = rows->side[side].has_massless;
+    massless->rows = &rows->side[side].massless;
+    massless->compliance = d->constant.massless_compliance[side];
+    massless->second_compliance = d->constant.massless_second_compliance[side];
+    massless->curve = &d->curve.massless[side];
+    massless->memory = memory;
+    massless->next = next;
+}
+
 static void list_faces(CzBlock *d, const Contact *contact, double step, FaceChain *of) {
     const CzFaceRows *rows = &d->parameter.face;
     const CzFaceMemory *memory = &d->memory->face;
@@ -23,12 +35,8 @@ static void list_faces(CzBlock *d, const Contact *contact, double step, FaceChai
     for (int side = 0; side < 2; ++side) {
         const CzMasslessMemory *before = &memory->side[side].massless;
         CzMasslessMemory *after = &next->side[side].massless;
-        of->massless[side] = (Massless){d->has_massless[side],
-                                        rows->side[side].has_massless,
-                                        &rows->side[side].massless,
-                                        &d->curve.massless[side],
-                                        before,
-                                        after};
+        list_massless(d, side, before, after, &of->massless[side]);
+        chain->spring[side].is_missing = !d->has_massless[side];
         chain->spring[side].stroke = before->stroke;
         chain->spring[side].next = after->stroke;
         list_energies(&chain->spring[side], before->energy, after->energy,
@@ -135,7 +143,7 @@ static int faces_are_slack(CzBlock *d, const Chain *chain) {
     if (!is_slack(&chain->now))
         return 0;
     CurveAt sum;
-    unbalance(chain, &sum);
+    unbalance(chain, chain->now.force, &sum);
     CZ_LANES (i) {
         const double of_chain = closure[i] + sum.value[i] - REACH_MARGIN;
         reach[i] = cz_smaller(of_chain, speed[i] > 0.0 ? of_chain : -REACH_MARGIN);
@@ -153,6 +161,8 @@ static int faces_remember(const CzBlock *d) {
  * their other memory are up to date. */
 static void leave_faces(CzBlock *d, const Contact *contact) {
     memset(d->published.face.force, 0, sizeof(CzRow));
+    if (!d->can_climb)
+        return;
     memset(d->published.face.demand_vertical, 0, sizeof(CzRow));
     memset(d->published.face.ready, 0, sizeof(CzRow));
     memcpy(d->next_memory->grip.slip_vertical, contact->slip_vertical, sizeof(CzRow));
@@ -168,7 +178,8 @@ static void push_faces(CzBlock *d, const Contact *contact, FaceChain *of) {
     const int settled = solve_chain(chain, &d->published);
     move_members(chain);
     for (int side = 0; side < 2; ++side)
-        keep_massless(&of->massless[side], chain->step);
+        if (!chain->spring[side].is_missing)
+            keep_massless(&of->massless[side]);
     d->faces_rest =
         settled && faces_are_slack(d, chain) && faces_remember(d) && !d->leaves_nothing_out;
     press_faces(d, contact, chain->now.force);
@@ -178,8 +189,7 @@ static void push_faces(CzBlock *d, const Contact *contact, FaceChain *of) {
 static void faces(const CzDynamics *dynamics, int index, double step) {
     CzBlock *d = &dynamics->block[index];
     Contact contact;
-    line_up_contact(end_at(d, 0), end_at(d, 1), &d->parameter.face.contact, d->parameter.tilts,
-                    &contact);
+    line_up_contact(d, end_at(d, 0), end_at(d, 1), &d->parameter.face.contact, &contact);
     if (d->faces_rest && !is_within(contact.closure, d->face_reach)) {
         leave_faces(d, &contact);
         return;
@@ -194,8 +204,10 @@ static void faces(const CzDynamics *dynamics, int index, double step) {
         put_drop(d, &contact, &of.chain.now, d->published.face.force, d->published.face.top);
     }
     count_held(&d->memory->face, &d->next_memory->face, d->parameter.face.compliance);
-    line_up_ramp(&contact, d->published.face.ramp);
-    grip_faces(d, &contact);
+    if (d->has_tilts)
+        line_up_ramp(&contact, d->published.face.ramp);
+    if (d->can_climb)
+        grip_faces(d, &contact);
     put_contact(force_on_end(d, 0), force_on_end(d, 1), &contact, d->published.face.force,
                 d->published.face.demand_vertical, d->published.interface.force);
     put_into_sections(d, &contact);

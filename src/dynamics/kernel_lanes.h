@@ -10,10 +10,11 @@
 /* A loop over the lanes of a block, whose iterations are independent. */
 #define CZ_LANES(i) _Pragma("omp simd") for (size_t i = 0; i < CZ_LANE_BLOCK; ++i)
 
-/* The same with a reduction into `sum`. */
+/* The same, with the largest value of all lanes in `most`: 1 where one lane has a property and the
+ * others 0. */
 #define CZ_PRAGMA(text) _Pragma(#text)
-#define CZ_LANES_SUM(i, sum)                                                                       \
-    CZ_PRAGMA(omp simd reduction(+ : sum))                                                         \
+#define CZ_LANES_MOST(i, most)                                                                     \
+    CZ_PRAGMA(omp simd reduction(max : most))                                                      \
     for (size_t i = 0; i < CZ_LANE_BLOCK; ++i)
 
 /* A row of zeros, where there is nothing to add. */
@@ -32,22 +33,27 @@ static inline void clear_rows(void *rows, size_t size) {
     _Pragma("omp simd") for (size_t i = 0; i < n; ++i) value[i] = 0.0;
 }
 
-/* Value and slope of a curve. */
+/* Value and slope of a curve. Sums in rows of a function's own stay in registers. */
 static void evaluate_curve(const CzBlockCurve *curve, const double *restrict x,
                            CurveAt *restrict at) {
+    CurveAt sum;
     CZ_LANES (i) {
-        at->value[i] = curve->start[i];
-        at->slope[i] = 0.0;
+        sum.value[i] = curve->start[i];
+        sum.slope[i] = 0.0;
     }
     for (int k = 0; k < curve->n_breakpoint; ++k) {
         const double *restrict place = curve->breakpoint[k].at;
-        const double *restrict change = curve->breakpoint[k].change;
+        const double *restrict slope_change = curve->breakpoint[k].change;
         CZ_LANES (i) {
-            const double beyond = x[i] - place[i];
-            const double counted = beyond >= 0.0 ? change[i] : 0.0;
-            at->value[i] += counted * beyond;
-            at->slope[i] += counted;
+            const double beyond = x[i] - place[i], change = slope_change[i];
+            const double counted = beyond >= 0.0 ? change : 0.0;
+            sum.value[i] += counted * beyond;
+            sum.slope[i] += counted;
         }
+    }
+    CZ_LANES (i) {
+        at->value[i] = sum.value[i];
+        at->slope[i] = sum.slope[i];
     }
 }
 

@@ -67,10 +67,33 @@ static inline void lay_motion(const Window *w, size_t plane, size_t turned, Pair
     lay(low + turned, high + turned, pair + 2 * ROWS_OF_PLANE, ROWS_OF_TURNED);
 }
 
+/* Reads a row. */
+static inline void lay_row(const Window *w, size_t at, Pair *pair) {
+    lay((const char *)w->low + at, (const char *)w->high + at, pair, 1);
+}
+
+/* Reads the motion of the cars ahead along the track: all else of it remains as it is. */
+static void look_ahead_along(const Window *ahead, CzSeen *seen) {
+    Pair pair[4];
+    lay_row(ahead, offsetof(CzBlock, position.body.x), pair);
+    lay_row(ahead, offsetof(CzBlock, velocity.body.x), pair + 1);
+    lay_row(ahead, offsetof(CzBlock, position.end[0].x), pair + 2);
+    lay_row(ahead, offsetof(CzBlock, velocity.end[0].x), pair + 3);
+    pick(ahead, (const Pair *)pair, seen->body.displacement.x, 1);
+    pick(ahead, (const Pair *)pair + 1, seen->body.rate.x, 1);
+    pick(ahead, (const Pair *)pair + 2, seen->end.displacement.x, 1);
+    pick(ahead, (const Pair *)pair + 3, seen->end.rate.x, 1);
+}
+
 /* Reads position and velocity of the body and the rear end of the car ahead. */
 static void look_ahead(const CzDynamics *dynamics, int index) {
     CzBlock *d = &dynamics->block[index];
     const Window ahead = window(dynamics, index, dynamics->lanes->n_design);
+    if (!dynamics->lanes->has.full_cars && d->has_looked) {
+        look_ahead_along(&ahead, &d->ahead);
+        return;
+    }
+    d->has_looked = 1;
     Pair pair[2 * ROWS_OF_MOTION];
     lay_motion(&ahead, offsetof(CzState, body), offsetof(CzBlock, turned.body), pair);
     lay_motion(&ahead, offsetof(CzState, end[0]), offsetof(CzBlock, turned.end[0]),

@@ -37,16 +37,16 @@ typedef struct {
 } CouplerChain;
 
 /* A shear-off that no lane has never yields. */
-static double leave_out_shear_off(PlasticState *plastic) {
+static int leave_out_shear_off(PlasticState *plastic) {
     CZ_LANES (i) {
         plastic->strength[i] = CZ_NEVER;
         plastic->compliance[i] = 0.0;
     }
-    return 0.0;
+    return 0;
 }
 
 /* Linearises the shear-off of one side; the first time also computes the damage. */
-static double linearise_shear_off(Chain *chain, int side, int again) {
+static int linearise_shear_off(Chain *chain, int side, int again) {
     const int member = SHEAR_OFF + side;
     const CzShearOffRows *restrict rows = chain->plastic[member].shear;
     PlasticState *plastic = &chain->now.plastic[member];
@@ -55,8 +55,8 @@ static double linearise_shear_off(Chain *chain, int side, int again) {
     CurveAt curve;
     if (chain->plastic[member].is_missing)
         return leave_out_shear_off(plastic);
-    if (again && trial_of_plastic(chain, member, trial) == 0.0)
-        return 0.0;
+    if (again && !trial_of_plastic(chain, member, trial))
+        return 0;
     const double *restrict travel = again ? trial : chain->plastic[member].stroke;
     double *restrict damage = again ? unused : ((CouplerChain *)chain)->damage;
     CZ_LANES (i) {
@@ -72,7 +72,7 @@ static double linearise_shear_off(Chain *chain, int side, int again) {
         plastic->strength[i] = curve.value[i];
         plastic->compliance[i] = cz_plastic_compliance(curve.value[i], curve.slope[i], 0.0, step);
     }
-    return (double)CZ_LANE_BLOCK;
+    return 1;
 }
 
 /* Makes the lanes in which a shear-off yields the active ones. Finds the force at which an
@@ -84,9 +84,9 @@ static void mark_release(CouplerChain *of) {
     const Plastic *shear_off = &chain->plastic[SHEAR_OFF];
     const PlasticState *state = &now->plastic[SHEAR_OFF];
     const double *restrict compliance = chain->compliance;
-    double n_yielding = 0.0, n_released = 0.0;
-    _Pragma("omp simd reduction(+ : n_yielding, n_released)") for (size_t i = 0; i < CZ_LANE_BLOCK;
-                                                                   ++i) {
+    double yields = 0.0, releases = 0.0;
+    _Pragma("omp simd reduction(max : yields, releases)") for (size_t i = 0; i < CZ_LANE_BLOCK;
+                                                               ++i) {
         const double force = now->force[i];
         double all_moved = 0.0, new_moved = 0.0, weakest = CZ_NEVER;
         for (int side = 0; side < 2; ++side) {
@@ -104,11 +104,11 @@ static void mark_release(CouplerChain *of) {
         now->active[i] = all_moved > 0.0 ? now->active[i] : 0.0;
         of->release.force[i] = begins * at;
         of->release.left[i] = begins * (new_moved + sprung);
-        n_yielding += now->active[i];
-        n_released += begins;
+        yields = cz_larger(yields, now->active[i]);
+        releases = cz_larger(releases, begins);
     }
-    of->yields = n_yielding > 0.0;
-    of->releases = n_released > 0.0;
+    of->yields = yields > 0.0;
+    of->releases = releases > 0.0;
 }
 
 /* Force after release of the shear-offs that release, both sides. */
@@ -176,7 +176,7 @@ static int release(CzBlock *d, const double *restrict rate, CouplerChain *of) {
     if (!of->yields)
         return 0;
     int n_anew = 0;
-    if (linearise_shear_off(chain, 0, 1) + linearise_shear_off(chain, 1, 1) > 0.0) {
+    if (linearise_shear_off(chain, 0, 1) | linearise_shear_off(chain, 1, 1)) {
         const int found = solve_linear(chain);
         n_anew = 1 + settle_chain(chain, &d->published, linearise_shear_off, found);
     }

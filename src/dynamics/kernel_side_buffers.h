@@ -51,7 +51,7 @@ static void side_buffers(CzBlock *d, double step) {
     const CzSideBufferRows *rows = &d->parameter.side_buffers;
     Contact contact;
     BufferChain of;
-    line_up_contact(end_at(d, 0), end_at(d, 1), &rows->contact, d->parameter.tilts, &contact);
+    line_up_contact(d, end_at(d, 0), end_at(d, 1), &rows->contact, &contact);
     memcpy(d->published.side_buffers.closure, contact.closure, sizeof(CzRow));
     list_side_buffers(d, &contact, step, &of);
     memset(of.chain.now.lowest, 0, sizeof(CzRow));

@@ -56,12 +56,24 @@ static void settle_snap(const CzDynamics *dynamics, const FaceChain *of, FaceSte
             faces.next->side[side].energy[i] += released * face[side] / both_faces;
 }
 
+/* The same for some lane of a block. */
+static int some_snap(const FaceChain *of) {
+    const double *restrict falls = of->chain.now.falls, *restrict next = of->chain.next,
+                           *restrict last = of->chain.last;
+    double snapped = 0.0;
+    CZ_LANES_MOST(i, snapped) {
+        const double drops = next[i] < (1.0 - LARGE_DROP) * last[i] ? 1.0 : 0.0;
+        snapped = cz_larger(snapped, falls[i] > 0.0 ? 1.0 : drops);
+    }
+    return snapped > 0.0;
+}
+
 /* Settles all snaps, after the faces of a block were evaluated. Faces that lose their overlap do no
  * work. */
 static void settle_snaps(const CzDynamics *dynamics, int index, const FaceChain *of) {
     const CzBlock *d = &dynamics->block[index];
     const FaceStep faces = {&d->memory->face, &d->next_memory->face};
-    if (!d->has_massless[0] && !d->has_massless[1])
+    if ((!d->has_massless[0] && !d->has_massless[1]) || !some_snap(of))
         return;
     for (size_t i = 0; i < CZ_LANE_BLOCK; ++i)
         if (snaps(of, i) && faces.next->lost[i] == 0.0)

@@ -18,7 +18,7 @@ static void superstructures(CzBlock *d) {
     double *restrict force = d->published.superstructure.force;
     double *restrict power = d->power->superstructure;
     Contact contact;
-    line_up_contact(end_at(d, 0), end_at(d, 1), &rows->contact, d->parameter.tilts, &contact);
+    line_up_contact(d, end_at(d, 0), end_at(d, 1), &rows->contact, &contact);
     CZ_LANES (i) {
         const double strength = rows->strength[i];
         const CzSuperstructureResponse response =

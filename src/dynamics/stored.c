@@ -280,7 +280,8 @@ static void fill_car(const CzDynamics *dynamics, const CzBlock *d, size_t lane, 
         stored->fold[end] =
             by_stretch(of->fold_pitch.stiffness[i], folded - d->memory->end[end].fold_pitch[i]);
     }
-    fill_gear(d, i, stored);
+    if (dynamics->lanes->has.full_cars)
+        fill_gear(d, i, stored);
     stored->slide =
         cz_stop_energy(drag->slide_stiffness[i], drag->slide_length[i], d->position.body.x[i]);
 }

@@ -21,10 +21,11 @@ static double settled_velocity(const CzBatch *batch, int dof, size_t lane) {
 }
 
 double cz_kinetic_energy(const CzBatch *batch, int design) {
+    const int n_dof = (int)(batch->dynamics->n_state / CZ_LANE_BLOCK);
     double energy = 0.0;
     for (int car = 0; car < batch->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
-        for (int dof = 0; dof < CZ_N_DOF; ++dof) {
+        for (int dof = 0; dof < n_dof; ++dof) {
             const double v = settled_velocity(batch, dof, lane);
             energy += 0.5 * *cz_lane_mass(batch->lanes, dof, lane) * v * v;
         }
@@ -45,10 +46,11 @@ static LedgerClass ledger_class(int row) {
 }
 
 double cz_total_work(const CzBatch *batch, int design) {
+    const int n_row = (int)(batch->dynamics->n_power / CZ_LANE_BLOCK);
     double work = 0.0;
     for (int car = 0; car < batch->n_car; ++car) {
         const size_t lane = cz_lane(batch, car, design);
-        for (int row = 0; row < CZ_N_LEDGER; ++row)
+        for (int row = 0; row < n_row; ++row)
             if (ledger_class(row) != BODIES)
                 work += cz_work(batch, row, lane);
         work += cz_chains_account(batch, lane).received + cz_gear_account(batch, lane).received;

@@ -11,10 +11,12 @@
 #include "base/error.h"
 #include "simulate/batch.h"
 
-/* Stores the equipment of the interfaces, which does not change in a run. */
+/* Stores the equipment of interfaces and cars, which does not change in a run. */
 static void list_equipment(CzBatch *batch, size_t n) {
-    for (size_t lane = 0; lane < n; lane++)
+    for (size_t lane = 0; lane < n; lane++) {
         batch->equipment[lane] = cz_interface_equipment(batch->lanes, lane);
+        batch->car_equipment[lane] = cz_car_equipment(batch->lanes, lane);
+    }
 }
 
 /* Lays the track of each design's model. */
@@ -35,6 +37,7 @@ CzStatus cz_batch_set_up(CzBatch *batch, CzError *error) {
     CzArena *arena = &batch->laid;
     batch->stored = cz_arena_allocate(arena, n, sizeof *batch->stored);
     batch->equipment = cz_arena_allocate(arena, n, sizeof *batch->equipment);
+    batch->car_equipment = cz_arena_allocate(arena, n, sizeof *batch->car_equipment);
     batch->load = cz_interface_loads_begin(batch, arena);
     if (batch->keeps_pulses)
         batch->sequence = cz_sequence_begin(batch, arena);

@@ -49,7 +49,7 @@ static bool has_slide(const CzBatch *batch, int car, int design, int side) {
 static double usable_of(const CzBatch *batch, const Class *kind, int which, size_t lane) {
     if (kind->limit == RETRACTION_SPACE)
         return batch->equipment[lane].side[which].retraction_space;
-    return kind->limit == SLIDE_LENGTH ? cz_car_equipment(batch->lanes, lane).slide_length
+    return kind->limit == SLIDE_LENGTH ? batch->car_equipment[lane].slide_length
                                        : batch->lanes->curve[kind->of[which]].usable[lane];
 }
 

@@ -126,7 +126,7 @@ static void split_zones(const CzBatch *batch, const CzEnd *end, int curve, size_
 }
 
 bool cz_has_end_mass(const CzBatch *batch, int car, int design, int side) {
-    const CzCarEquipment of = cz_car_equipment(batch->lanes, cz_lane(batch, car, design));
+    const CzCarEquipment of = batch->car_equipment[cz_lane(batch, car, design)];
     return !of.has_slaved_end[1 - side];
 }
 

@@ -195,7 +195,7 @@ static double plastic_strokes(const CzBatch *batch, int design) {
         for (int end = 0; end < 2; ++end)
             sum += cz_memory(batch, CZ_MEMORY(end[end].peak), lane);
         sum += cz_memory(batch, CZ_MEMORY(superstructure.set), lane);
-        if (cz_car_equipment(batch->lanes, lane).slide_length < CZ_NEVER)
+        if (batch->car_equipment[lane].slide_length < CZ_NEVER)
             sum += cz_extreme(batch, CZ_EXTREME(slide_travel), lane);
     }
     return sum;
@@ -226,7 +226,7 @@ static double lowest_speed(const CzBatch *batch, int car, int design) {
         car > 0 && rolling_resistance(batch, car, design) >
                        (1.0 + ROUNDING) * rolling_resistance(batch, car - 1, design);
     const double speed = cz_velocity(batch, CZ_DOF(body.x), lane);
-    const bool is_held = cz_car_equipment(batch->lanes, lane).is_held;
+    const bool is_held = batch->car_equipment[lane].is_held;
     return is_held || is_slowed ? fmin(speed, 0.0) : speed;
 }
 
@@ -238,7 +238,7 @@ typedef struct Ahead {
 static Ahead car_ahead(const CzBatch *batch, int car, int design) {
     const size_t lane = cz_lane(batch, car, design);
     return (Ahead){cz_velocity(batch, CZ_DOF(body.x), lane), lowest_speed(batch, car, design),
-                   cz_car_equipment(batch->lanes, lane).slowing};
+                   batch->car_equipment[lane].slowing};
 }
 
 /* Largest speed at which a car can still meet one ahead of it that is `room` away; the car ahead

@@ -71,9 +71,8 @@ static bool is_to_be_unloaded(CzInterfaceLoad *load, double largest, bool stores
 /* Kinetic energy of two cars relative to their common motion. */
 static double relative_energy(const CzBatch *batch, int interface, int design) {
     const size_t lane = cz_lane(batch, interface, design);
-    const double inverse =
-        cz_car_equipment(batch->lanes, lane).inverse_mass +
-        cz_car_equipment(batch->lanes, cz_lane(batch, interface + 1, design)).inverse_mass;
+    const double inverse = batch->car_equipment[lane].inverse_mass +
+                           batch->car_equipment[cz_lane(batch, interface + 1, design)].inverse_mass;
     const double rate = cz_closing_speed(batch, interface, design);
     return inverse > 0.0 ? 0.5 * rate * rate / inverse : 0.0;
 }

@@ -111,6 +111,8 @@ double cz_pulse_sliding_mean(const CzPulse *pulse, double shortest_time, double 
         if (range == 0.0 || range / (shortest * step) < largest)
             continue;
         for (int length = shortest; length <= 2 * shortest && length < left; ++length) {
+            if (range / (length * step) < largest)
+                break;
             const int n_start = left - length < AT_ONCE ? left - length : AT_ONCE;
             const double mean = largest_change(speed + first, n_start, length) / (length * step);
             if (mean > largest || (mean == largest && length < longest))

@@ -73,6 +73,7 @@ typedef struct CzBatch {
     CzLanes *lanes;
     CzDynamics *dynamics;
     CzInterfaceEquipment *equipment; /* by lane */
+    CzCarEquipment *car_equipment;   /* by lane */
     CzStored *stored;                /* by lane, when the accounts were taken */
     CzTrackAccount *in_track;        /* by block */
     int n_design;                    /* in the lanes: runs that are over may have left them */

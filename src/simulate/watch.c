@@ -156,7 +156,7 @@ static void watch_car(CzWatch *list, const CzBatch *batch, int car) {
                   batch->design[0].vehicles[description->vehicle].bogie.flange_height, kind,
                   description->name);
     }
-    const CzCarEquipment of = cz_car_equipment(batch->lanes, lane);
+    const CzCarEquipment of = batch->car_equipment[lane];
     for (int bogie = 0; bogie < 2; ++bogie) {
         watch(list, CZ_EVENT_LIFT_STOP, FROM_LIFT_STOP, bogie, lane, of.lift_stop,
               bogie_name[bogie], description->name);

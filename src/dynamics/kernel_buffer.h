@@ -43,36 +43,42 @@ static double buffer_force(const Chain *chain, int side, size_t i, double stroke
     return response.force;
 }
 
+/* The law at a stroke in a lane, with the offset of the hysteresis before it. */
+static inline CzBufferResponse respond(const Chain *chain, const Buffer *buffer,
+                                       const CurveAt *restrict curve, const double *restrict stroke,
+                                       const double *restrict offset, size_t i) {
+    const CzBufferLaw law = buffer_law(buffer->rows, buffer->curve, i);
+    return cz_buffer_of(&law, buffer->compliance[i], curve->value[i], curve->slope[i], stroke[i],
+                        stroke[i] - buffer->memory->stroke[i], buffer->memory->rate[i], offset[i],
+                        chain->step);
+}
+
 /* Linearises a buffer. The hysteresis starts from its state at the committed stroke. */
 static int linearise_buffer(Chain *chain, int side, int again) {
     const Buffer *buffer = &((const BufferChain *)chain)->buffer[side];
-    const double *restrict compliance = buffer->compliance;
-    const double *restrict committed = buffer->memory->stroke, *restrict rate =
-                                                                   buffer->memory->rate;
-    const CzBlockCurve *restrict loading = buffer->curve;
-    const CzBufferRows *restrict rows = buffer->rows;
-    const double step = chain->step;
     _Alignas(64) CzRow unused;
     const double *restrict offset = again ? buffer->next->offset : buffer->memory->offset;
     double *restrict next_offset = again ? unused : buffer->next->offset;
     CurveAt curve;
     SpringState trial;
     choose_stroke(chain, side, again, trial.at);
-    evaluate_curve(loading, trial.at, &curve);
+    evaluate_curve(buffer->curve, trial.at, &curve);
+    if (again) { /* without the divisions for the compliances */
+        CZ_LANES (i) {
+            trial.force[i] = respond(chain, buffer, &curve, trial.at, offset, i).force;
+        }
+        if (!some_deviate(&chain->now, trial.force))
+            return 0;
+    }
     CZ_LANES (i) {
-        const CzBufferLaw law = buffer_law(rows, loading, i);
-        const CzBufferResponse response =
-            cz_buffer_of(&law, compliance[i], curve.value[i], curve.slope[i], trial.at[i],
-                         trial.at[i] - committed[i], rate[i], offset[i], step);
+        const CzBufferResponse response = respond(chain, buffer, &curve, trial.at, offset, i);
         trial.force[i] = response.force;
         trial.up[i] = response.loading;
         trial.down[i] = response.unloading;
         next_offset[i] = response.offset;
     }
-    const int changes = !again || some_deviate(&chain->now, trial.force);
-    if (changes)
-        accept(&chain->now, side, again, &trial);
-    return changes;
+    accept(&chain->now, side, again, &trial);
+    return 1;
 }
 
 static const SpringLaw buffers = {linearise_buffer, buffer_force, NULL};

@@ -1,8 +1,8 @@
 /* Fixed runs, of which count.sh counts the instructions and profile.sh finds where time goes.
  *
- *   bench_count two-cars|metro|modal           the runs of instructions.txt, from the project's
- * root bench_count train TRACK MS REPEATS ISA     8+8 cars of train.yaml for a simulated time
- *   bench_count compiler                       prints the compiler, on which counts depend
+ *   bench_count two-cars|metro|modal|chain    runs of instructions.txt, from the project's root
+ *   bench_count train TRACK MS REPEATS ISA    8+8 cars of train.yaml for a simulated time
+ *   bench_count compiler                      prints the compiler, on which counts depend
  *
  * The copy of the kernel is that for x86-64-v3, which valgrind runs, or ISA. Exit code 3 where this
  * processor cannot run it.
@@ -15,7 +15,7 @@
 #include "dynamics/dynamics.h"
 
 /* Two full cars, recorded; the metro to the end of a search's run; trains of 8 cars on the modal
- * track for a short time. */
+ * track for a short time; the simple chain. */
 static BenchRun *run_named(const char *name) {
     if (strcmp(name, "two-cars") == 0) {
         BenchRun *run = bench_problem("problems/two-cars-25kmh.yaml", NULL);
@@ -31,6 +31,8 @@ static BenchRun *run_named(const char *name) {
         return bench_problem(
             "tests/bench/train.yaml",
             (const char *const[]){"simulation.track=modal", "simulation.duration_ms=20", NULL});
+    if (strcmp(name, "chain") == 0)
+        return bench_chain(8);
     bench_stop("no such run");
 }
 
@@ -44,8 +46,8 @@ static BenchRun *run_train(const char *track, const char *duration) {
 int main(int argc, char **argv) {
     const bool is_train = argc == 6 && strcmp(argv[1], "train") == 0;
     if (argc != 2 && !is_train)
-        bench_stop(
-            "usage: bench_count two-cars|metro|modal|compiler, or train TRACK MS REPEATS ISA");
+        bench_stop("usage: bench_count two-cars|metro|modal|chain|compiler, or train TRACK MS "
+                   "REPEATS ISA");
     if (strcmp(argv[1], "compiler") == 0) {
         puts(__VERSION__);
         return 0;

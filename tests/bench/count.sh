@@ -7,7 +7,7 @@ command -v valgrind >/dev/null 2>&1 || { echo "valgrind is not installed"; exit 
 profile=$(mktemp)
 trap 'rm -f "$profile"' EXIT
 echo "compiler $("$program" compiler)"
-for run in two-cars metro modal; do
+for run in two-cars metro modal chain; do
     code=0
     valgrind -q --tool=callgrind --toggle-collect=cz_simulate_batch --callgrind-out-file="$profile" "$program" $run || code=$?
     [ $code != 3 ] || { echo "this processor, or valgrind, has no AVX2"; exit 3; }

@@ -14,7 +14,7 @@ if [ $code = 3 ]; then
 elif [ "$("$BUILD/tests/bench_count" compiler)" != "$compiler" ]; then
     skipped "$what" "they were counted with the compiler $compiler"
 else
-    for run in two-cars metro modal; do
+    for run in two-cars metro modal chain; do
         near() {
             awk -v run=$run '$1 == run { n[++k] = $2 }
                 END { print n[1], "kept,", n[2], "counted"; exit !(k == 2 && n[2] > 0.97 * n[1] && n[2] < 1.03 * n[1]) }' \

@@ -65,15 +65,20 @@ typedef struct CzJournal {
     void *keep_data;
 } CzJournal;
 
+enum { CZ_USUAL_WIDTH = 8, CZ_MOST_WIDTH = 1024 }; /* of searches */
+
 typedef struct CzOptimiseOptions {
     const char *algorithm; /* "auto" or an NLopt name such as "LN_COBYLA"; NULL: that of the file */
     long evaluations;      /* largest number of evaluations; 0: that of the file */
     long seed;             /* -1 takes the file's */
-    const double *start;   /* design at which the search begins, in the variables' units; NULL:
-                              that of the file (n_variable) */
-    unsigned verify_methods;           /* methods of verification of a design that passes, as in
-                                          CzVerifyOptions; by default all but Adams, 0 for none */
-    bool no_sensitivities;             /* they, and the condition of an optimum, are left out */
+    int width; /* designs that the default strategy asks for at once where it can: steps of
+                  several lengths, points that fill the box; 0: CZ_USUAL_WIDTH. The results
+                  depend on it, and not on the number of threads or ranks */
+    const double *start;     /* design at which the search begins, in the variables' units; NULL:
+                                that of the file (n_variable) */
+    unsigned verify_methods; /* methods of verification of a design that passes, as in
+                                CzVerifyOptions; by default all but Adams, 0 for none */
+    bool no_sensitivities;   /* they, and the condition of an optimum, are left out */
     const volatile sig_atomic_t *stop; /* a flag that ends the search when not 0; NULL when none */
     void (*progress)(const CzProgress *progress, void *data); /* NULL when none */
     void *progress_data;
@@ -137,6 +142,7 @@ typedef struct CzOutcome {
     CzOutcomeStatus status;
     char why_stopped[160];
     long n_evaluation;
+    int width; /* of the search; 0 when not known */
     int n_variable;
     double *start,
         *best; /* in the variables' units; best is on the catalogue increments unless the search

@@ -309,7 +309,7 @@ typedef struct CzJournalFile CzJournalFile;
 /* The beginning of the search that a journal is of. Texts are borrowed. */
 typedef struct CzJournalHead {
     const char *algorithm;
-    long seed, evaluations;
+    long seed, evaluations, width;
     const char *const *set; /* settings of the command line (n_set) */
     int n_set;
     const char *const *word; /* as in CzReportOptions (n_word) */
@@ -333,8 +333,8 @@ CZ_API const CzJournalHead *cz_journal_head(const CzJournalFile *file);
 
 /* Begins the journal of a search with these settled options and sets their `journal`, so that they
  * are valid as long as the file is open. The report of the search is borrowed. Refuses with
- * CZ_STATUS_INPUT the journal of another version, problem, algorithm or seed, or of a higher limit;
- * with a lower limit the search may ask for other designs. Statuses also CZ_STATUS_OUTPUT,
+ * CZ_STATUS_INPUT the journal of another version, problem, algorithm, seed or width, or of a higher
+ * limit; with a lower limit the search may ask for other designs. Statuses also CZ_STATUS_OUTPUT,
  * CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CZ_API CzStatus cz_journal_begin(CzJournalFile *file, const CzReport *report,
                                                CzOptimiseOptions *options, CzError *error);

@@ -5,6 +5,7 @@
 #include "base/number.h"
 #include "base/suggest.h"
 #include "base/text.h"
+#include "crushzone/optimise.h"
 #include "crushzone/sweep.h"
 
 #include <errno.h>
@@ -239,6 +240,8 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
     CZ_TRY(read_whole(arguments, CZ_OPTION_JOBS, 1, 1024, &n_job, error));
     CZ_TRY(
         read_whole(arguments, CZ_OPTION_EVALUATIONS, 1, 100000000, &arguments->evaluations, error));
+    CZ_TRY(read_whole(arguments, CZ_OPTION_WIDTH, CZ_USUAL_WIDTH, CZ_MOST_WIDTH, &arguments->width,
+                      error));
     CZ_TRY(read_time(arguments, CZ_OPTION_MAX_TIME, &arguments->max_time, error));
     CZ_TRY(read_whole(arguments, CZ_OPTION_ROUNDS, 1, 10000, &arguments->rounds, error));
     CZ_TRY(read_whole(arguments, CZ_OPTION_SEED, 0, 2000000000, &arguments->seed, error));

@@ -60,6 +60,7 @@ typedef struct CzArguments {
     const CzExecutor *executor; /* NULL: threads */
     long evaluations;           /* 0: that of the file */
     long seed;                  /* -1: that of the file */
+    long width;                 /* 0: the default */
     double max_time;            /* [s]; 0 for none */
     long rounds;                /* 0: the default */
     long n_run;                 /* 0: the default */

@@ -33,6 +33,7 @@ static CzOptimiseOptions options_of(const Search *search) {
         options.evaluations = arguments->evaluations;
     if (arguments->seed >= 0)
         options.seed = arguments->seed;
+    options.width = (int)arguments->width;
     options.stop = cz_interrupt_flag();
     return options;
 }

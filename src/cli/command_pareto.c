@@ -87,6 +87,7 @@ static CzParetoOptions options_of(const Front *front, Progress *progress) {
         options.search.algorithm = arguments->text[CZ_OPTION_ALGORITHM];
     options.search.evaluations = arguments->evaluations;
     options.search.seed = arguments->seed;
+    options.search.width = (int)arguments->width;
     options.search.stop = cz_interrupt_flag();
     options.search.progress = show;
     options.search.progress_data = progress;

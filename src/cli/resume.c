@@ -34,6 +34,10 @@ static void take_options(CzArguments *arguments, const CzJournalHead *head) {
         text[CZ_OPTION_EVALUATIONS] = written(head, "--evaluations", 0);
         arguments->evaluations = head->evaluations;
     }
+    if (arguments->width == 0 || arguments->width == head->width) {
+        text[CZ_OPTION_WIDTH] = written(head, "--width", 0);
+        arguments->width = head->width;
+    }
     if (arguments->n_point == 0 && points != NULL) {
         text[CZ_OPTION_POINTS] = points;
         arguments->n_point = (int)strtol(points, NULL, 10);

@@ -43,11 +43,12 @@ static CzStatus read_problem(CzSession *session, CzError *error) {
 /* Collects the options of the command line that change results; --time-step-ms is among the
  * settings. */
 static void list_options(CzSession *session) {
-    static const CzOption listed[] = {CZ_OPTION_SCENARIO,  CZ_OPTION_INTEGRATOR,
-                                      CZ_OPTION_ALGORITHM, CZ_OPTION_EVALUATIONS,
-                                      CZ_OPTION_SEED,      CZ_OPTION_POINTS};
+    static const CzOption listed[] = {
+        CZ_OPTION_SCENARIO, CZ_OPTION_INTEGRATOR, CZ_OPTION_ALGORITHM, CZ_OPTION_EVALUATIONS,
+        CZ_OPTION_SEED,     CZ_OPTION_WIDTH,      CZ_OPTION_POINTS};
     static const char *const words[] = {"--scenario",    "--integrator", "--algorithm",
-                                        "--evaluations", "--seed",       "--points"};
+                                        "--evaluations", "--seed",       "--width",
+                                        "--points"};
     for (int k = 0; k < session->arguments->n_minimise && k < 2; k++) {
         session->word[session->n_word++] = "--minimise";
         session->word[session->n_word++] = session->arguments->minimise[k];

@@ -241,13 +241,14 @@ static void conclude_verification(const CzCombinations *combinations, long limit
 static CzStatus relax(CzEvaluator *evaluator, const CzOptimiseOptions *options, CzOutcome *outcome,
                       CzError *error) {
     const bool was_infeasible = outcome->status == CZ_OUTCOME_INFEASIBLE;
-    CZ_TRY(cz_relaxation_find(evaluator, options->stop, outcome, error));
+    CZ_TRY(cz_relaxation_find(evaluator, options, outcome, error));
     return was_infeasible ? cz_outcome_verify(evaluator, options, outcome, error) : CZ_OK;
 }
 
 static CzStatus fill_outcome(CzEvaluator *evaluator, CzCombinations *combinations,
                              const CzOptimiseOptions *options, CzOutcome *outcome, CzError *error) {
     const CzSubspace *chosen = &combinations->subspace[combinations->chosen];
+    outcome->width = options->width;
     if (options->start != NULL)
         memcpy(outcome->start, options->start, (size_t)outcome->n_variable * sizeof(double));
     CZ_TRY(cz_outcome_take_history(outcome, combinations, error));
@@ -285,6 +286,11 @@ CzStatus cz_optimise_fill_defaults(const CzEvaluator *evaluator, CzOptimiseOptio
         options->evaluations = written->evaluations;
     if (options->seed < 0)
         options->seed = written->seed;
+    if (options->width == 0)
+        options->width = CZ_USUAL_WIDTH;
+    if (options->width < CZ_USUAL_WIDTH || options->width > CZ_MOST_WIDTH)
+        return cz_fail(error, CZ_STATUS_INPUT, "the width of %d designs is not from %d to %d",
+                       options->width, CZ_USUAL_WIDTH, CZ_MOST_WIDTH);
     if (options->evaluations < 1)
         return cz_fail(error, CZ_STATUS_INPUT, "the limit of %ld evaluations is below 1",
                        options->evaluations);

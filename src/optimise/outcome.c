@@ -170,7 +170,7 @@ static CzStatus fill(CzEvaluator *evaluator, const CzRecall *recall, CzOutcome *
     CZ_TRY(cz_evaluate(evaluator, 1, outcome->start, true, &outcome->start_evaluation, error));
     CZ_TRY(cz_evaluate(evaluator, 1, outcome->best, true, &outcome->best_evaluation, error));
     CZ_TRY(cz_outcome_verify(evaluator, &options, outcome, error));
-    CZ_TRY(cz_relaxation_find(evaluator, NULL, outcome, error));
+    CZ_TRY(cz_relaxation_find(evaluator, &options, outcome, error));
     if (outcome->status == CZ_OUTCOME_INTERRUPTED)
         return CZ_OK;
     CZ_TRY(cz_sensitivity_take(evaluator, NULL, outcome, error));

@@ -73,7 +73,7 @@ CZ_MUST_CHECK CzStatus cz_margins_order(const CzEvaluator *evaluator, CzOutcome 
  * with all others satisfied (relaxation.c); a design that passes without a relaxation becomes the
  * best design, not yet verified. Statuses: those of cz_evaluate; CZ_OK after the stop
  * flag was set. */
-CZ_MUST_CHECK CzStatus cz_relaxation_find(CzEvaluator *evaluator, const volatile sig_atomic_t *stop,
+CZ_MUST_CHECK CzStatus cz_relaxation_find(CzEvaluator *evaluator, const CzOptimiseOptions *given,
                                           CzOutcome *outcome, CzError *error);
 
 #endif

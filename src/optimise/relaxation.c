@@ -183,9 +183,10 @@ static int next_limit(const CzEvaluator *evaluator, const CzEvaluation *best, do
     return next;
 }
 
-CzStatus cz_relaxation_find(CzEvaluator *evaluator, const volatile sig_atomic_t *stop,
+CzStatus cz_relaxation_find(CzEvaluator *evaluator, const CzOptimiseOptions *given,
                             CzOutcome *outcome, CzError *error) {
     const CzEvaluation *best = &outcome->best_evaluation;
+    const volatile sig_atomic_t *stop = given->stop;
     CzArena arena = {0};
     Relaxed relaxed;
     if (outcome->status != CZ_OUTCOME_INFEASIBLE || best->status != CZ_OK ||
@@ -201,8 +202,10 @@ CzStatus cz_relaxation_find(CzEvaluator *evaluator, const volatile sig_atomic_t 
             break;
         above = best->constraint[limit];
     }
-    const CzOptimiseOptions options = {
-        .evaluations = n_limit > 0 ? fmax(1, outcome->n_trial / n_limit) : 0, .stop = stop};
+    const CzOptimiseOptions options = {.evaluations =
+                                           n_limit > 0 ? fmax(1, outcome->n_trial / n_limit) : 0,
+                                       .width = given->width,
+                                       .stop = stop};
     double below = INFINITY;
     for (int i = 0; i < n_limit && status == CZ_OK; i++) {
         relaxed.limit = next_limit(evaluator, best, below);

@@ -420,6 +420,7 @@ static CzStatus fill_outcome(Robust *robust, CzError *error) {
     memcpy(outcome->best, robust->best, n * sizeof *outcome->best);
     memcpy(outcome->trial, robust->trial, n_trial * sizeof *outcome->trial);
     memcpy(outcome->trial_x, robust->trial_x, n_trial * n * sizeof *outcome->trial_x);
+    outcome->width = robust->options.width;
     cz_outcome_mark_bounds(result->evaluator, outcome);
     CZ_TRY(
         cz_evaluate(result->evaluator, 1, outcome->start, true, &outcome->start_evaluation, error));

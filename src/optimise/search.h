@@ -68,6 +68,7 @@ typedef struct CzRecord {
 typedef struct CzSearch {
     const CzFunction *function;
     long most_evaluations;
+    int width; /* designs that are asked for at once where there is a choice */
     const volatile sig_atomic_t *stop; /* NULL when none */
     void (*progress)(const CzProgress *progress, void *data);
     void *progress_data;

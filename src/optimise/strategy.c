@@ -27,8 +27,7 @@ enum {
     MOST_STARTS_OF_FIT = 6,
     MOST_IDLE_STARTS = 8, /* descents in a row without an improvement (ours) */
     FEWEST_POINTS = 6,    /* of a screen between two descents */
-    SCREEN_BATCH = 16,
-    MOST_BATCH = 8
+    SCREEN_BATCH = 16     /* points of a screen side by side in a search of the usual width */
 };
 
 /* Half width of the smaller box around the start, from which every other screening point is
@@ -37,16 +36,17 @@ static const double near_start = 0.2;
 
 static void screen(CzSearch *search, unsigned long seed, long offset, long n_point) {
     const int n = search->function->n_variable;
+    const int most = search->width > SCREEN_BATCH ? search->width : SCREEN_BATCH;
     const size_t room = (size_t)(2 * n + 1 + search->function->n_constraint);
-    double *u = cz_search_numbers(search, SCREEN_BATCH * room + (size_t)n);
+    double *u = cz_search_numbers(search, (size_t)most * room + (size_t)n);
     if (u == NULL)
         return;
-    double *x = u + SCREEN_BATCH * n, *start = x + SCREEN_BATCH * n;
-    double *objective = start + n, *constraint = objective + SCREEN_BATCH;
+    double *x = u + most * n, *start = x + most * n;
+    double *objective = start + n, *constraint = objective + most;
     cz_search_scale(search, search->function->start, start);
-    for (long first = 0; first < n_point; first += SCREEN_BATCH) {
+    for (long first = 0; first < n_point; first += most) {
         const long left = n_point - first;
-        const int batch = left < SCREEN_BATCH ? (int)left : SCREEN_BATCH;
+        const int batch = left < most ? (int)left : most;
         for (int i = 0; i < batch; i++) {
             double *point = u + i * n;
             cz_sample_point(seed, offset + first + i, n, point);
@@ -202,6 +202,18 @@ static void visit(Visited *visited, const double *u, int n_variable) {
     memcpy(visited->u + visited->n++ * n_variable, u, (size_t)n_variable * sizeof *u);
 }
 
+/* Points that fill the box before another descent. */
+static long n_screen_of(const CzSearch *search, long left) {
+    const int n = search->function->n_variable;
+    const long usual = n + 2 < FEWEST_POINTS  ? FEWEST_POINTS
+                       : n + 2 < SCREEN_BATCH ? n + 2
+                                              : SCREEN_BATCH;
+    /* a descent that follows needs evaluations too */
+    return search->width > CZ_USUAL_WIDTH && search->width > usual && search->width < left / 2
+               ? search->width
+               : usual;
+}
+
 /* The design from which the next descent begins: the start, or the best one where margins are held,
  * then the best one that is distant from the earlier descents, after more points; -1 when there is
  * none. The last evaluations, too few for
@@ -210,9 +222,7 @@ static long next_start(const CzSurface *surface, unsigned long seed, int start, 
                        Visited *visited) {
     CzSearch *search = surface->search;
     const int n = search->function->n_variable;
-    const long n_screen = n + 2 < FEWEST_POINTS  ? FEWEST_POINTS
-                          : n + 2 < SCREEN_BATCH ? n + 2
-                                                 : SCREEN_BATCH;
+    const long n_screen = n_screen_of(search, left);
     if (start == 0)
         return surface->n_held > 0 ? search->best : 0;
     if (left <= n_screen + 3 * (n + 2))
@@ -318,7 +328,7 @@ static CzStatus repeat(CzSearch *search, const char *algorithm, unsigned long se
 
 CzStatus cz_strategy(CzSearch *search, const char *algorithm, unsigned long seed, CzError *error) {
     CzSurface surface;
-    if (!cz_surface_create(&surface, search, MOST_BATCH)) {
+    if (!cz_surface_create(&surface, search, CZ_USUAL_WIDTH)) {
         cz_surface_free(&surface);
         return cz_no_memory(error, "the response surfaces");
     }

@@ -238,9 +238,8 @@ double cz_surface_merit_at(const CzSurface *surface, const double *u, const doub
 
 /* Sum of the compressed violations of point `point` of the last evaluation, as the planes have
  * them; infinite when it failed. */
-static double penalty_of(const CzSurface *surface, int point) {
-    const CzSearch *search = surface->search;
-    const CzRecord *record = &search->record[search->n_record - 1];
+static double penalty_of(const CzSurface *surface, long number, int point) {
+    const CzRecord *record = &surface->search->record[number];
     const double *c = surface->many_d + point * surface->m;
     if (isnan(record->objective))
         return INFINITY;
@@ -263,37 +262,60 @@ static double farthest_step(const CzSurface *surface, const double *u) {
     return largest;
 }
 
-/* Evaluates one scaled design and moves the base to it when its merit is less; returns the change
- * of the merit over the predicted one, NaN when the search ended. */
-static double try_step(CzSurface *surface, const char *phase, const double *u) {
+/* A step of a descent. */
+typedef struct Step {
+    double radius; /* of its box */
+    double length; /* largest change of a variable, scaled */
+    double wanted; /* change of the merit that the planes predict */
+    double gain;   /* change of the merit; minus infinity for a design that failed */
+} Step;
+
+enum { MOST_STEPS = 8 }; /* at once, from the width of 64 designs on (ours) */
+
+/* Evaluates scaled designs of n steps (n x n_variable), and moves the base to that with the largest
+ * gain. Returns the index of this step, or of the shortest one where none is a gain; -1 when the
+ * search ended. */
+static int try_steps(CzSurface *surface, const char *phase, int n_step, Step *step,
+                     const double *u) {
     CzSearch *search = surface->search;
-    const double wanted =
-        cz_surface_merit_at(surface, surface->u, NULL) - cz_surface_merit_at(surface, u, NULL);
-    double *step = cz_search_numbers(search, (size_t)surface->n);
-    if (step == NULL)
-        return NAN;
-    cz_search_unscale(search, 1, u, surface->x);
-    if (!evaluate(surface, phase, 1)) {
-        free(step);
-        return NAN;
+    const int n = surface->n;
+    double penalty[MOST_STEPS];
+    double *change = cz_search_numbers(search, (size_t)n);
+    if (change == NULL)
+        return -1;
+    cz_search_unscale(search, n_step, u, surface->x);
+    if (!evaluate(surface, phase, n_step)) {
+        free(change);
+        return -1;
     }
-    const double penalty = penalty_of(surface, 0);
-    const double gain =
-        merit(surface, surface->f, surface->penalty) -
-        (isfinite(penalty) ? merit(surface, objective_of(surface, 0), penalty) : INFINITY);
-    if (isfinite(penalty))
-        correct_all(surface, 0, u, step);
-    if (gain > 0) {
-        surface->n_outside = penalty > 0.5 * surface->penalty ? surface->n_outside + 1 : 0;
-        set_base(surface, search->n_record - 1, 0, u);
-        surface->penalty = penalty;
+    const long first = search->n_record - n_step;
+    const double before = merit(surface, surface->f, surface->penalty);
+    int best = 0, shortest = 0;
+    for (int i = 0; i < n_step; i++) {
+        penalty[i] = penalty_of(surface, first + i, i);
+        step[i].gain =
+            before - (isfinite(penalty[i]) ? merit(surface, objective_of(surface, i), penalty[i])
+                                           : INFINITY);
+        if (isfinite(penalty[i]))
+            correct_all(surface, i, u + i * n, change);
+        best = step[i].gain > step[best].gain ? i : best;
+        shortest = step[i].length < step[shortest].length ? i : shortest;
     }
-    free(step);
-    return gain / fmax(wanted, 1e-9);
+    free(change);
+    if (!(step[best].gain > 0))
+        return shortest;
+    surface->n_outside = penalty[best] > 0.5 * surface->penalty ? surface->n_outside + 1 : 0;
+    set_base(surface, first + best, best, u + best * n);
+    surface->penalty = penalty[best];
+    return best;
 }
 
 static const double largest_radius = 0.5;
 static const double least_gain = 1e-5; /* on the planes, of the merit, for a step */
+
+static bool is_worth(const Step *step, double smallest_radius) {
+    return step->wanted > least_gain && step->length > smallest_radius / 4;
+}
 
 static const double first_weight = 1;
 
@@ -334,10 +356,41 @@ static bool begin_descent(CzSurface *surface, const char *phase, const double *x
     const double size = fabs(surface->f);
     surface->scale = surface->search->function->is_minimax || !(size > 1e-9) ? 1 : size;
     surface->weight = first_weight;
-    surface->penalty = penalty_of(surface, 0);
+    surface->penalty = penalty_of(surface, search->n_record - 1, 0);
     surface->n_outside = 0;
     free(u);
     return isfinite(surface->penalty) && refresh(surface, phase, secant);
+}
+
+/* Lists steps to the best designs on the planes in boxes of this radius and, in a wide search, of
+ * others; those that are worth an evaluation, but always the first one. Returns their number, 0
+ * when there is none. */
+static int list_steps(const CzSurface *surface, double radius, double smallest, long left,
+                      Step *step, double *u) {
+    static const double factor[MOST_STEPS] = {1, 0.5, 2, 0.25, 0.125, 4, 0.0625, 0.03125};
+    const int n = surface->n, asked = surface->search->width / CZ_USUAL_WIDTH;
+    const int most = asked < MOST_STEPS ? asked : MOST_STEPS;
+    const double here = cz_surface_merit_at(surface, surface->u, NULL);
+    int n_step = 0;
+    for (int i = 0; i < most && n_step < left; i++) {
+        double *next = u + n_step * n;
+        Step *listed = &step[n_step];
+        listed->radius = factor[i] * radius;
+        if (i > 0 && (listed->radius < smallest || listed->radius > largest_radius))
+            continue;
+        if (!cz_surface_best(surface, listed->radius, next)) {
+            if (i == 0)
+                return 0;
+            continue;
+        }
+        listed->length = farthest_step(surface, next);
+        listed->wanted = here - cz_surface_merit_at(surface, next, NULL);
+        bool is_new = i == 0 || is_worth(listed, smallest);
+        for (int k = 0; k < n_step && is_new; k++)
+            is_new = memcmp(next, u + k * n, (size_t)n * sizeof *u) != 0;
+        n_step += is_new;
+    }
+    return n_step;
 }
 
 void cz_surface_descend(CzSurface *surface, const char *phase, const double *x, long evaluations) {
@@ -350,24 +403,27 @@ void cz_surface_descend(CzSurface *surface, const char *phase, const double *x, 
                                   : search->function->is_minimax ? 5e-3
                                                                  : 2e-2;
     const double secant = 0.02;
-    double *next = cz_search_numbers(search, (size_t)n);
+    Step listed[MOST_STEPS];
+    double *next = cz_search_numbers(search, MOST_STEPS * (size_t)n);
     if (next == NULL || evaluations < n + 2 || !begin_descent(surface, phase, x, secant)) {
         free(next);
         return;
     }
-    int n_failed = 0;
+    int n_failed = 0, n_step;
     double at_refresh = merit(surface, surface->f, surface->penalty);
-    while (search->n_record < limit && cz_surface_best(surface, radius, next)) {
-        const double step = farthest_step(surface, next);
-        const double wanted = cz_surface_merit_at(surface, surface->u, NULL) -
-                              cz_surface_merit_at(surface, next, NULL);
-        const bool is_worth = wanted > least_gain && step > smallest_radius / 4;
+    while ((n_step = list_steps(surface, radius, smallest_radius, limit - search->n_record, listed,
+                                next)) > 0) {
+        const bool goes_on = is_worth(&listed[0], smallest_radius);
+        int tried = 0;
         double ratio = -1;
-        if (is_worth) {
-            ratio = try_step(surface, phase, next);
-            if (isnan(ratio))
+        if (goes_on) {
+            tried = try_steps(surface, phase, n_step, listed, next);
+            if (tried < 0)
                 break;
+            ratio = listed[tried].gain / fmax(listed[tried].wanted, 1e-9);
         }
+        const double step = listed[tried].length;
+        radius = listed[tried].radius;
         if (surface->n_outside >= 3 && surface->weight < 1e4) {
             surface->weight *= 5;
             surface->n_outside = 0;
@@ -379,7 +435,7 @@ void cz_surface_descend(CzSurface *surface, const char *phase, const double *x, 
             radius = fmin(2 * radius, largest_radius);
         else if (ratio < 0.25)
             radius = fmin(radius, fmax(step, smallest_radius)) * (ratio < 0 ? 0.35 : 0.5);
-        if (is_worth && n_failed < 4 && radius > smallest_radius)
+        if (goes_on && n_failed < 4 && radius > smallest_radius)
             continue;
         if (surface->is_fresh || search->n_record + n > limit ||
             !(merit(surface, surface->f, surface->penalty) < at_refresh - least_progress))

@@ -28,6 +28,7 @@ bool cz_journal_start(const CzReport *report, const CzOptimiseOptions *options, 
                               .head = {.algorithm = options->algorithm,
                                        .seed = options->seed,
                                        .evaluations = options->evaluations,
+                                       .width = options->width,
                                        .set = given->set,
                                        .n_set = given->n_set,
                                        .word = given->word,
@@ -72,10 +73,11 @@ CzStatus cz_journal_write_head(const CzJournalStart *start, const CzReport *repo
     fputs(", \"algorithm\": ", stream);
     cz_line_write_text(start->head.algorithm, stream);
     fprintf(stream,
-            ", \"seed\": %ld, \"evaluations\": %ld, \"earlier\": %ld, \"n_variable\": %d, "
+            ", \"seed\": %ld, \"evaluations\": %ld, \"width\": %ld, \"earlier\": %ld, "
+            "\"n_variable\": %d, "
             "\"n_constraint\": %d, \"n_detail\": %d",
-            start->head.seed, start->head.evaluations, start->n_earlier, start->n_variable,
-            start->n_constraint, start->n_detail);
+            start->head.seed, start->head.evaluations, start->head.width, start->n_earlier,
+            start->n_variable, start->n_constraint, start->n_detail);
     cz_line_write_texts("set", start->head.n_set, start->head.set, stream);
     cz_line_write_texts("options", start->head.n_word, start->head.word, stream);
     CZ_TRY(write_names(report, stream, error));
@@ -157,6 +159,7 @@ static bool read_head(char *line, CzArena *arena, CzJournalStart *start) {
     start->head.algorithm = cz_line_text(&cursor);
     start->head.seed = cz_line_integer(&cursor, ", \"seed\": ");
     start->head.evaluations = cz_line_integer(&cursor, ", \"evaluations\": ");
+    start->head.width = cz_line_integer(&cursor, ", \"width\": ");
     start->n_earlier = cz_line_integer(&cursor, ", \"earlier\": ");
     start->n_variable = (int)cz_line_integer(&cursor, ", \"n_variable\": ");
     start->n_constraint = (int)cz_line_integer(&cursor, ", \"n_constraint\": ");
@@ -164,8 +167,8 @@ static bool read_head(char *line, CzArena *arena, CzJournalStart *start) {
     start->head.set = cz_line_texts(&cursor, ", \"set\": [", &start->head.n_set);
     start->head.word = cz_line_texts(&cursor, ", \"options\": [", &start->head.n_word);
     return !cursor.failed && start->head.seed >= 0 && start->head.evaluations > 0 &&
-           start->n_earlier >= 0 && start->n_variable >= 0 && start->n_constraint >= 0 &&
-           start->n_detail >= 0;
+           start->head.width > 0 && start->head.width <= CZ_MOST_WIDTH && start->n_earlier >= 0 &&
+           start->n_variable >= 0 && start->n_constraint >= 0 && start->n_detail >= 0;
 }
 
 /* Reads an evaluation; false when the line is damaged, or without memory. */

@@ -263,6 +263,7 @@ static CzStatus compare(const CzJournalFile *file, CzError *error) {
         const char *what;
         long theirs, ours;
     } number[] = {{"seed", theirs->head.seed, ours->head.seed},
+                  {"width", theirs->head.width, ours->head.width},
                   {"number of variables", theirs->n_variable, ours->n_variable},
                   {"number of constraints", theirs->n_constraint, ours->n_constraint},
                   {"number of details", theirs->n_detail, ours->n_detail}};

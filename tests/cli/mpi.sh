@@ -62,6 +62,7 @@ END
 for n in 1 2 3; do
     check "a search in $n ranks ends in the bytes of one thread" same $n optimise two-trains.yaml --evaluations 40
 done
+check "so does a wide search in 3 ranks" same 3 optimise two-trains.yaml --evaluations 40 --width 32
 check "a search against scatter in 2 ranks ends in the bytes of one thread" same 2 optimise scatter.yaml --evaluations 30
 check "samples in 3 ranks are the bytes of one thread" same 3 sample scatter.yaml
 check "a challenge in 3 ranks is the bytes of one thread" same 3 challenge scatter.yaml --runs 40

@@ -103,6 +103,8 @@ other() { # other TEXT OPTION...: refused, and the folder stays as it was
 }
 seed() { other 'another search: its seed is 1, here it is 2' --seed 2; }
 check "a journal of another seed is refused" seed
+width() { other 'another search: its width is 8, here it is 16' --width 16; }
+check "a journal of another width is refused" width
 algorithm() { other 'its algorithm is auto, here it is LN_COBYLA' --algorithm LN_COBYLA; }
 check "a journal of another algorithm is refused" algorithm
 problem() { other 'its problem, with its settings, is ' --set trains.A.speed_km_h=20; }

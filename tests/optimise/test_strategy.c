@@ -58,6 +58,49 @@ static void usual_strategy_finds_the_least_largest_constraint(void **state) {
     check_optimum(&analytic_planes);
 }
 
+/* Counts the batches of a search. */
+typedef struct Counted {
+    const CzFunction *function;
+    int n_batch;
+} Counted;
+
+static CzStatus count_batch(void *data, int n, const double *x, double *objective,
+                            double *constraint, double *detail, CzError *error) {
+    Counted *counted = data;
+    counted->n_batch++;
+    return counted->function->evaluate(counted->function->data, n, x, objective, constraint, detail,
+                                       error);
+}
+
+static CzSearch run_wide(const CzFunction *function, int width, int *n_batch) {
+    Counted counted = {.function = function};
+    CzFunction counting = *function;
+    counting.evaluate = count_batch;
+    counting.data = &counted;
+    CzOptimiseOptions options = {.evaluations = 400, .width = width};
+    CzSearch search;
+    CzError error = {0};
+    cz_search_init(&search, &counting, &options);
+    assert_int_equal(cz_strategy(&search, NULL, 1, &error), CZ_OK);
+    *n_batch = counted.n_batch;
+    return search;
+}
+
+static void a_wide_search_asks_for_more_designs_at_once(void **state) {
+    (void)state;
+    const CzFunction function = analytic_function(&analytic_hs43);
+    int n_usual, n_wide;
+    CzSearch usual = run_wide(&function, CZ_USUAL_WIDTH, &n_usual);
+    CzSearch wide = run_wide(&function, 64, &n_wide);
+    print_message("%ld designs in %d batches, %ld in %d\n", usual.n_record, n_usual, wide.n_record,
+                  n_wide);
+    assert_true((double)wide.n_record / n_wide > 2.0 * (double)usual.n_record / n_usual);
+    assert_near(wide.record[wide.best].objective, usual.record[usual.best].objective, GUARANTEED,
+                0);
+    cz_search_free(&usual);
+    cz_search_free(&wide);
+}
+
 static void kkt_residual_distinguishes_an_optimum_from_another_point(void **state) {
     (void)state;
     const double of_differences = 44 * 2.2e-16 / 1e-6; /* rounding of the objective over 1e-6 */
@@ -349,6 +392,7 @@ int main(void) {
         cmocka_unit_test(usual_strategy_reaches_the_optimum_of_hs29),
         cmocka_unit_test(usual_strategy_reaches_the_optimum_of_hs43),
         cmocka_unit_test(usual_strategy_finds_the_least_largest_constraint),
+        cmocka_unit_test(a_wide_search_asks_for_more_designs_at_once),
         cmocka_unit_test(least_violated_design_is_kept_when_nothing_is_feasible),
         cmocka_unit_test(failing_region_is_left_and_never_the_best),
         cmocka_unit_test(failed_designs_have_finite_values_above_all_others),

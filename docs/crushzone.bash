@@ -67,9 +67,9 @@ _crushzone() {
     run) options='--output --force --json --quiet --verbose --set --scenario --time-step-ms --integrator --iso-mme --depfile --junit --strict --jobs --csv-sep --csv-decimal --color --help' ;;
     check) options='--output --force --json --quiet --verbose --set --scenario --time-step-ms --integrator --depfile --junit --jobs --csv-sep --csv-decimal --color --help' ;;
     optimise | optimize) options='--output --json --quiet --verbose --set --time-step-ms --depfile --algorithm --evaluations --seed --width --resume --max-time --jobs --csv-sep --csv-decimal --color --help' ;;
-    sweep) options='--output --force --json --quiet --set --scenario --time-step-ms --strict --vary --metric --check --shard --jobs --csv-sep --csv-decimal --color --help' ;;
-    sample) options='--output --force --json --quiet --set --time-step-ms --seed --samples --shard --jobs --csv-sep --csv-decimal --color --help' ;;
-    merge) options='--output --force --json --quiet --jobs --csv-sep --csv-decimal --color --help' ;;
+    sweep) options='--output --force --json --quiet --set --scenario --time-step-ms --junit --strict --vary --metric --check --shard --jobs --csv-sep --csv-decimal --color --help' ;;
+    sample) options='--output --force --json --quiet --set --time-step-ms --junit --seed --samples --shard --jobs --csv-sep --csv-decimal --color --help' ;;
+    merge) options='--output --force --json --quiet --junit --jobs --csv-sep --csv-decimal --color --help' ;;
     pareto) options='--output --force --json --quiet --verbose --set --time-step-ms --minimise --points --algorithm --evaluations --seed --width --resume --max-time --jobs --csv-sep --csv-decimal --color --help' ;;
     challenge) options='--output --force --json --quiet --set --time-step-ms --seed --runs --jobs --csv-sep --csv-decimal --color --help' ;;
     corridor) options='--output --force --json --quiet --set --time-step-ms --seed --part --curves --no-scatter --jobs --csv-sep --csv-decimal --color --help' ;;

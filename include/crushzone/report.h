@@ -274,13 +274,14 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_write_file(const char *path, CzReportWri
                                                    const void *data, CzError *error);
 
 /* Verdicts as JUnit XML, which the servers of continuous integration read: a suite for each
- * scenario, a case for each check; what is not checked is skipped, never passed (docs/report.md).
- */
+ * scenario, a case for each check; of a sweep a case for each point; of samples a case for each
+ * check over all of them. What is not checked is skipped, never passed (docs/report.md). */
 typedef struct CzJunit CzJunit;
 
 /* NULL without memory. */
 CZ_API CzJunit *cz_junit_begin(void);
-/* Adds the suites of a run, or those of a file that could not be judged, with the reason. */
+/* Adds the suites of a run, a sweep or samples, or those of a file that could not be judged, with
+ * the reason. */
 CZ_API void cz_junit_add(CzJunit *junit, const CzReport *report);
 CZ_API void cz_junit_add_error(CzJunit *junit, const char *file, const char *why);
 /* Writes a CzJunit as a document; a CzReportWriter. Status: CZ_STATUS_NO_MEMORY. */

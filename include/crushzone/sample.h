@@ -59,6 +59,7 @@ typedef struct CzSampledCheck {
     CzSampledMargin margin; /* without any where the check is a yes or no */
     double required;     /* margin by the file's `judged_by`: the smallest, a quantile, or mean less
                             deviations; -infinity when that is a failed run; NaN for a yes or no */
+    bool is_satisfied;   /* by that statistic, or by few enough failures of a yes or no */
     int n_fail;          /* samples that fail it, or whose run of this scenario failed */
     double *correlation; /* rank correlation of each draw with the margin, for a yes or no with
                             passing; NaN when one of them is constant (n_draw) */

@@ -114,11 +114,12 @@ static int report_missing_parts(const CzArguments *arguments, const CzShards *sh
 
 /* Appends options of `merge` to the words of the whole run's command line. */
 static int add_options(const CzArguments *arguments, char **word) {
-    static const CzOption passed[] = {CZ_OPTION_OUTPUT,  CZ_OPTION_REPLACE,    CZ_OPTION_JSON,
-                                      CZ_OPTION_QUIET,   CZ_OPTION_JOBS,       CZ_OPTION_COLOR,
-                                      CZ_OPTION_CSV_SEP, CZ_OPTION_CSV_DECIMAL};
-    static const char *const name[] = {"--output", "--force", "--json",    "--quiet",
-                                       "--jobs",   "--color", "--csv-sep", "--csv-decimal"};
+    static const CzOption passed[] = {CZ_OPTION_OUTPUT,  CZ_OPTION_REPLACE,     CZ_OPTION_JSON,
+                                      CZ_OPTION_QUIET,   CZ_OPTION_JOBS,        CZ_OPTION_COLOR,
+                                      CZ_OPTION_CSV_SEP, CZ_OPTION_CSV_DECIMAL, CZ_OPTION_JUNIT};
+    static const char *const name[] = {"--output",  "--force",       "--json",
+                                       "--quiet",   "--jobs",        "--color",
+                                       "--csv-sep", "--csv-decimal", "--junit"};
     int n = 0;
     for (size_t i = 0; i < sizeof passed / sizeof *passed; i++) {
         const char *value = arguments->text[passed[i]];

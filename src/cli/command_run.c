@@ -1,6 +1,7 @@
 /* `run` and `check`: simulate every scenario, print the table, write the result folder. */
 #include "base/error.h"
 #include "cli/command.h"
+#include "cli/junit_file.h"
 #include "base/clock.h"
 #include "cli/messages.h"
 #include "cli/progress.h"
@@ -117,8 +118,8 @@ static int run_file(const CzArguments *arguments, const char *file, CzJunit *jun
         }
         cz_evaluation_free(&evaluation);
     }
-    if (!is_judged && junit != NULL)
-        cz_junit_add_error(junit, file, "it could not be judged; standard error has the reason");
+    if (!is_judged)
+        cz_junit_file_add_unjudged(junit, file);
     cz_session_end(&session);
     return code;
 }
@@ -145,7 +146,6 @@ static int check_folders(const CzArguments *arguments) {
 
 /* Refuses what cannot be written, before anything is computed. */
 static int check_outputs(const CzArguments *arguments) {
-    const char *junit = arguments->text[CZ_OPTION_JUNIT];
     char room[4096];
     CzError error = {0};
     const int code = check_folders(arguments);
@@ -156,41 +156,22 @@ static int check_outputs(const CzArguments *arguments) {
         cz_fail(&error, CZ_STATUS_INPUT, "--iso-mme needs a result folder: give -o DIR");
         return cz_print_error(arguments, &error);
     }
-    if (junit != NULL && strcmp(junit, "-") == 0) {
-        cz_fail(&error, CZ_STATUS_INPUT, "--junit writes a file; standard output has the tables");
-        return cz_print_error(arguments, &error);
-    }
-    if (junit != NULL && cz_report_check_file(NULL, junit, false, &error) != CZ_OK)
-        return cz_print_error(arguments, &error);
-    return 0;
-}
-
-static int write_junit(const CzArguments *arguments, const CzJunit *junit) {
-    const char *path = arguments->text[CZ_OPTION_JUNIT];
-    CzError error = {0};
-    if (cz_report_write_file(path, cz_junit_write, junit, &error) != CZ_OK)
-        return cz_print_error(arguments, &error);
-    cz_print_note(arguments, "verdicts in %s", path);
     return 0;
 }
 
 int cz_command_run(const CzArguments *arguments) {
+    CzJunit *junit = NULL;
     int worst = check_outputs(arguments);
+    if (worst == 0)
+        worst = cz_junit_file_begin(arguments, &junit);
     if (worst != 0)
         return worst;
-    CzJunit *junit = NULL;
-    if (arguments->text[CZ_OPTION_JUNIT] != NULL && (junit = cz_junit_begin()) == NULL) {
-        CzError error;
-        cz_fail(&error, CZ_STATUS_NO_MEMORY, "no memory for the JUnit document");
-        return cz_print_error(arguments, &error);
-    }
     for (int i = 0; i < arguments->n_operand; i++) {
         if (i > 0)
             fputc('\n', stdout);
         const int code = run_file(arguments, arguments->operand[i], junit);
         worst = code > worst ? code : worst;
     }
-    const int code = junit != NULL ? write_junit(arguments, junit) : 0;
-    cz_junit_free(junit);
+    const int code = cz_junit_file_end(arguments, junit);
     return code > worst ? code : worst;
 }

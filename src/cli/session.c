@@ -1,5 +1,6 @@
 /* A session: reading a problem file, building its evaluator, writing its results. */
 #include "cli/session.h"
+#include "cli/junit_file.h"
 
 #include "base/clock.h"
 #include "base/error.h"
@@ -226,20 +227,32 @@ int cz_session_fail(const CzSession *session, const CzError *error) {
     return cz_status_exit_code(error->status);
 }
 
-int cz_session_deliver(const CzSession *session, const CzReport *report) {
+int cz_session_deliver(CzSession *session, const CzReport *report) {
     const CzArguments *arguments = session->arguments;
+    session->is_judged = true;
+    if (session->junit != NULL)
+        cz_junit_add(session->junit, report);
     const int code = cz_save_results(arguments, report, arguments->text[CZ_OPTION_OUTPUT]);
     return code != 0 ? code : cz_print_results(arguments, report);
 }
 
 int cz_session_study(const CzArguments *arguments, CzStudy study, void *data) {
+    const char *file = arguments->operand[0];
     CzSession session;
-    int code = cz_session_read(&session, arguments, arguments->operand[0]);
+    CzJunit *junit;
+    int code = cz_junit_file_begin(arguments, &junit);
+    if (code != 0)
+        return code;
+    code = cz_session_read(&session, arguments, file);
+    session.junit = junit;
     if (code == 0)
         code = cz_session_check_folder(&session, arguments->text[CZ_OPTION_OUTPUT],
                                        arguments->text[CZ_OPTION_REPLACE] != NULL);
     if (code == 0)
         code = study(&session, data);
+    if (!session.is_judged)
+        cz_junit_file_add_unjudged(junit, file);
     cz_session_end(&session);
-    return code;
+    const int junit_code = cz_junit_file_end(arguments, junit);
+    return junit_code > code ? junit_code : code;
 }

@@ -15,6 +15,8 @@ typedef struct CzSession {
     double setup_s;       /* reading and building [s] */
     const char *word[16]; /* options that change results, except settings (n_word) */
     int n_word;
+    CzJunit *junit;          /* of a study; NULL without --junit */
+    bool is_judged;          /* the verdicts of the study are in it */
     CzReportOptions options; /* of its results, set by cz_session_report */
 } CzSession;
 
@@ -56,8 +58,9 @@ CZ_MUST_CHECK int cz_session_check_folder(const CzSession *session, const char *
 CZ_MUST_CHECK int cz_session_write_depfile(const CzSession *session, const char *folder,
                                            const char *document);
 
-/* Writes the folder of -o, if any, then prints; returns the exit code of a failure, 0 without. */
-CZ_MUST_CHECK int cz_session_deliver(const CzSession *session, const CzReport *report);
+/* Writes the folder of -o, if any, then prints, and adds verdicts to the document of --junit;
+ * returns the exit code of a failure, 0 without. */
+CZ_MUST_CHECK int cz_session_deliver(CzSession *session, const CzReport *report);
 
 /* A command that studies a problem by many runs: reads the problem, reports its mistakes, checks
  * that the folder of -o can be written, and calls `study`, which returns the exit code; `data` is

@@ -27,6 +27,7 @@ set(CZ_SOURCES_cli
     help_parts.c
     help_topics.c
     interrupt.c
+    junit_file.c
     lines.c
     main.c
     messages.c

@@ -237,10 +237,13 @@ static bool satisfies(const CzSampling *sampling, const CzSampledCheck *check) {
     return check->required >= 0;
 }
 
-static CzVerdict judge(const CzSampling *sampling) {
+static CzVerdict judge(CzSampling *sampling) {
     bool satisfied = sampling->nominal.verdict != CZ_VERDICT_FAIL;
-    for (int c = 0; c < sampling->n_check; c++)
-        satisfied &= satisfies(sampling, &sampling->check[c]);
+    for (int c = 0; c < sampling->n_check; c++) {
+        CzSampledCheck *check = &sampling->check[c];
+        check->is_satisfied = satisfies(sampling, check);
+        satisfied &= check->is_satisfied;
+    }
     if (!satisfied || n_invalid(sampling) > n_allowed(sampling))
         return CZ_VERDICT_FAIL;
     return sampling->n_run < sampling->n_sample ? CZ_VERDICT_NOT_CHECKED

@@ -16,7 +16,7 @@ static int judge(const CzArguments *arguments, const CzChallenge *challenge) {
                           "known");
             return cz_status_exit_code(CZ_STATUS_RUN_FAILED);
         }
-    return challenge->is_broken ? cz_status_exit_code(CZ_STATUS_VIOLATED) : 0;
+    return cz_verdict_passes(challenge->judgement) ? 0 : cz_status_exit_code(CZ_STATUS_VIOLATED);
 }
 
 static int finish(CzSession *session, const CzChallenge *challenge) {

@@ -73,13 +73,23 @@ static CzStatus run(Search *search, CzOptimiseOptions *options, CzError *error) 
     return status;
 }
 
+/* Whether the verdict on the best design passes, which covers checks that no search can meet. Of a
+ * fit the tolerances decide alone. */
+static int judge_best(const CzArguments *arguments, const CzEvaluation *best) {
+    if (cz_verdict_passes(best->verdict) || best->n_match > 0)
+        return 0;
+    if (best->verdict == CZ_VERDICT_NOT_CHECKED)
+        cz_print_note(arguments, "some checks could not be made, so the verdict is not a pass");
+    return cz_status_exit_code(CZ_STATUS_VIOLATED);
+}
+
 /* Results that lack a part are not those that were asked for, whatever their verdict. */
-static int judge(const CzOutcome *outcome) {
+static int judge(const CzArguments *arguments, const CzOutcome *outcome) {
     if (outcome->is_cut_short)
         return cz_interrupt_code();
     switch (outcome->status) {
     case CZ_OUTCOME_FEASIBLE:
-        return 0;
+        return judge_best(arguments, &outcome->best_evaluation);
     case CZ_OUTCOME_UNVERIFIED:
     case CZ_OUTCOME_INFEASIBLE:
         return cz_status_exit_code(CZ_STATUS_VIOLATED);
@@ -106,7 +116,7 @@ static int finish(Search *search) {
                       "results in %s, computed in %.3g s; run the best design with: crushzone "
                       "check %s/optimised.yaml",
                       search->folder, outcome->wall_s, search->folder);
-    return unkept != 0 ? unkept : unprinted != 0 ? unprinted : judge(outcome);
+    return unkept != 0 ? unkept : unprinted != 0 ? unprinted : judge(arguments, outcome);
 }
 
 static int search_and_finish(Search *search) {

@@ -40,8 +40,9 @@ static int judge(const CzPareto *pareto) {
     for (int i = 0; i < pareto->n_point; i++)
         if (pareto->point[i].state == CZ_PARETO_FAILED)
             worst = CZ_STATUS_RUN_FAILED;
-        else if (pareto->point[i].state != CZ_PARETO_VERIFIED &&
-                 pareto->point[i].state != CZ_PARETO_NOT_NEEDED && worst == CZ_OK)
+        else if (pareto->point[i].state != CZ_PARETO_NOT_NEEDED && worst == CZ_OK &&
+                 (pareto->point[i].state != CZ_PARETO_VERIFIED ||
+                  !cz_verdict_passes(pareto->point[i].verdict)))
             worst = CZ_STATUS_VIOLATED;
     return cz_status_exit_code(worst);
 }

@@ -26,9 +26,8 @@ const CzHelpEntry cz_topics[CZ_N_TOPIC] = {
 
 const CzHelpEntry cz_exit_codes[] = {
     {"0", "done"},
-    {"1",
-     "a check fails or could not be made, no feasible design was found (optimise), the required "
-     "statistic of a check is violated (sample), a law is refused (fit)"},
+    {"1", "a check fails or could not be made, no feasible design was found, the required "
+          "statistic of a check is violated (sample), a law is refused (fit)"},
     {"2", "error in the command line or a problem file"},
     {"3", "a run failed or is incomplete; the time limit of a search (--max-time) was reached, the "
           "best design so far is written"},
@@ -53,15 +52,18 @@ const CzHelpEntry cz_verdict_rules[] = {
 
 const char cz_verdict_remark[] =
     "The same rule applies to a scenario, a problem, a point of a sweep, an optimum and compared "
-    "runs, in tables, JSON, JUnit, reports and exit codes: check, sample, run --strict and sweep "
-    "--strict end with 0 for pass and PROVISIONAL only. JSON has PROVISIONAL as \"verdict\": "
+    "runs, in tables, JSON, JUnit, reports and exit codes: check, run --strict, sweep --strict, "
+    "sample, challenge, optimise, pareto and corridor end with 0 for pass and PROVISIONAL only. "
+    "JSON has PROVISIONAL as \"verdict\": "
     "\"pass\" with \"provisional\": true. Requirements of a profile that this program cannot check "
     "are listed as not covered and never counted as passed: a pass is then one by screening and "
     "gives their number, and JSON has \"screening\": true. A yes or no has no margin. Design rules "
     "are limits of this program and not provisional. The constraints of a search are the checks "
     "that can be made, with the "
     "required margin, and the targets: FEASIBLE means that they are satisfied; the verdict covers "
-    "all checks.";
+    "all checks, so that optimise ends with 1 where the best design is FEASIBLE and NOT CHECKED. "
+    "Of a "
+    "fit (match) the tolerances decide alone.";
 
 /* ---- lists ---- */
 

@@ -33,14 +33,18 @@ static void write_banner(CzMarkup *markup, const CzReport *report) {
     const char *given = cz_evaluator_objective_unit(evaluator), *unit = given != NULL ? given : "";
     const CzVerdict verdict = outcome->best_evaluation.verdict;
     char remark[CZ_SCREENING_ROOM];
-    const bool is_passed = outcome->status == CZ_OUTCOME_FEASIBLE && verdict == CZ_VERDICT_PASS;
-    cz_markup_write(
-        markup, "<header><h1>%s</h1><p class='banner %s'>%s</p>", cz_problem_title(report->problem),
-        outcome->status == CZ_OUTCOME_INFEASIBLE || outcome->status == CZ_OUTCOME_UNVERIFIED
-            ? "fail"
-        : is_passed ? "pass"
-                    : "careful",
-        cz_outcome_words(evaluator, outcome));
+    const bool is_feasible = outcome->status == CZ_OUTCOME_FEASIBLE;
+    const bool is_passed = is_feasible && verdict == CZ_VERDICT_PASS;
+    const bool adds_verdict = is_feasible && !is_passed && !cz_evaluator_is_fit(evaluator);
+    cz_markup_write(markup, "<header><h1>%s</h1><p class='banner %s'>%s%s%s</p>",
+                    cz_problem_title(report->problem),
+                    outcome->status == CZ_OUTCOME_INFEASIBLE ||
+                            outcome->status == CZ_OUTCOME_UNVERIFIED
+                        ? "fail"
+                    : is_passed ? "pass"
+                                : "careful",
+                    cz_outcome_words(evaluator, outcome), adds_verdict ? ", " : "",
+                    adds_verdict ? cz_verdict_title(verdict) : "");
     cz_markup_write(markup, "<p>%ld evaluation%s: %s.</p>", outcome->n_evaluation,
                     outcome->n_evaluation == 1 ? "" : "s", outcome->why_stopped);
     char use[CZ_SENTENCE_ROOM];

@@ -56,6 +56,14 @@ unchecked() {
         agree rules.yaml 1 'NOT CHECKED' 'not checked' false 'NOT CHECKED'
 }
 check "a check that could not be made prevents a pass" unchecked
+searched() {
+    printf 'extends: rules.yaml\noptimise: {evaluations: 9, variables: [{path: "parts.end.coupler.buffer.stages[0].force_kN", min: 800, max: 1100}]}\n' >open.yaml &&
+        exits 1 "$C" optimise open.yaml -o opened && says out.txt 'FEASIBLE after' && says out.txt 'Verdict: NOT CHECKED.' && says err.txt 'some checks could not be made, so the verdict is not a pass' &&
+        says opened/report.html '">FEASIBLE, NOT CHECKED</p>' && json opened/outcome.json status feasible && json opened/outcome.json verdict 'not checked' && exits 1 "$C" check opened/optimised.yaml &&
+        printf 'extends: rules.yaml\nuncertainty: {samples: 4, parameters: [{path: trains.A.speed_km_h, tolerance_percent: 2}]}\n' >unsure.yaml && exits 1 "$C" challenge unsure.yaml --runs 6 && says out.txt 'could not break it' &&
+        exits 1 "$C" sample unsure.yaml && exits 1 "$C" pareto open.yaml --minimise margin --minimise design.part_count -n 2 -o front && says out.txt verified
+}
+check "a search ends with the exit code of the verdict of its best design" searched
 failing() {
     sed 's/max: 3000/max: 300/' profiles/own.yaml >profiles/low.yaml && sed -i 's/name: own/name: low/' profiles/low.yaml &&
         sed 's/profile: own/profile: low/; s/design_rules: false/design_rules: true/' elastic.yaml >low.yaml &&
@@ -247,7 +255,36 @@ assert [suite.get("name") for suite in root][0] == "elastic.yaml: collision", [s
 assert "nowhere.yaml: problem file" in [suite.get("name") for suite in root] and root.get("errors") == "1"'
     }
     check "--junit of several files is one document, with an error for a file that cannot be judged" several
+    # outcomes FILE WORD...: the cases of the document end so, in order, and its counts say the same.
+    outcomes() {
+        python3 - "$@" <<'END'
+import sys, xml.etree.ElementTree as tree
+root = tree.parse(sys.argv[1]).getroot()
+cases = root.findall("testsuite/testcase")
+found = [next((child.tag for child in case if child.tag != "system-out"), "pass") for case in cases]
+assert found == sys.argv[2:], found
+for name, tag in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
+    assert int(root.get(name)) == found.count(tag) == sum(int(suite.get(name)) for suite in root), name
+assert int(root.get("tests")) == len(cases)
+END
+    }
+    points() {
+        exits 1 "$C" sweep elastic.yaml --vary trains.A.speed_km_h=4,12 --strict --junit points.xml && outcomes points.xml pass failure skipped skipped &&
+            says points.xml 'name="trains.A.speed_km_h = 12"><failure type="limit" message="FAIL: peak force at A1-B1 in collision, margin -' && says points.xml PROVISIONAL &&
+            exits 0 "$C" sweep elastic.yaml --vary parts.car.mass_t=36,-1 --junit points.xml && outcomes points.xml error pass skipped skipped &&
+            exits 2 "$C" sweep elastic.yaml --vary nothing=1,2 --junit points.xml && outcomes points.xml error && exits 2 "$C" sweep elastic.yaml --vary trains.A.speed_km_h=4,5 --shard 1/2 -o part-1 --junit points.xml && says err.txt 'give --junit to crushzone merge'
+    }
+    check "--junit of a sweep has a case for each point" points
+    drawn() {
+        exits 0 "$C" sample scatter.yaml --junit drawn.xml && outcomes drawn.xml pass pass pass skipped skipped && says drawn.xml '0 of 4 samples fail; judged by the smallest margin of the samples: +' &&
+            exits 1 "$C" sample scatter.yaml --set trains.A.speed_km_h=12 --junit drawn.xml && outcomes drawn.xml failure pass failure skipped skipped && says drawn.xml '4 of 4 samples fail' &&
+            "$C" sample scatter.yaml --shard 1/2 -o part-1 -q >out.txt && "$C" sample scatter.yaml --shard 2/2 -o part-2 -q >out.txt && exits 0 "$C" merge part-1 part-2 --junit merged.xml &&
+            "$C" sample scatter.yaml --junit drawn.xml -q >out.txt && cmp drawn.xml merged.xml
+    }
+    check "--junit of samples has a case for each check over all samples" drawn
 else
+    skipped "--junit of a sweep has a case for each point" "no python3"
+    skipped "--junit of samples has a case for each check over all samples" "no python3"
     skipped "--junit has a case for each check and run, with the counts of the JSON" "no python3"
     skipped "--junit of several files is one document, with an error for a file that cannot be judged" "no python3"
 fi

@@ -123,9 +123,18 @@ typedef struct CzNumberDifference {
     const double *value; /* NaN where it is not known or the run lacks it (n_run) */
 } CzNumberDifference;
 
+/* A train or vehicle that has another name in a run than in the first one, at the same place.
+ * Paths, texts and tables have the name of the first run. Borrowed from the problems. */
+typedef struct CzComparedName {
+    int run; /* from 0, at least 1 */
+    const char *first, *other;
+} CzComparedName;
+
 /* Differences of compared runs. Open; texts and arrays belong to it. */
 typedef struct CzComparison {
     int n_run;
+    int n_name;
+    CzComparedName *name; /* run by run (n_name) */
     int n_input, n_same_input;
     CzInputDifference *input; /* (n_input) */
     int n_number, n_same_number;

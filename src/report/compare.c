@@ -3,8 +3,10 @@
 
 #include "report/checks_table.h"
 #include "report/compare.h"
+#include "report/compared_names.h"
 #include "report/figure.h"
 #include "report/tables.h"
+#include "report/verdict_words.h"
 
 #include <math.h>
 #include <string.h>
@@ -80,7 +82,7 @@ double cz_compared_value(const CzReport *report, int i, const CzResult *result, 
     const bool of_interface = result->record == CZ_RECORD_INTERFACE;
     CzResultContext context = {.run = summary};
     for (int k = 0; summary != NULL && k < count_of(summary, of_interface); k++)
-        if (strcmp(name_of(summary, of_interface, k), name) == 0)
+        if (cz_compared_names_match(report->comparison, i, name_of(summary, of_interface, k), name))
             return cz_result_number(result, &context,
                                     of_interface ? (const void *)&summary->interface[k]
                                                  : (const void *)&summary->vehicle[k]);
@@ -110,10 +112,25 @@ static void begin(CzReportTable *table, const CzReport *report, const char *head
     }
 }
 
+/* The verdict of each run, with the remark behind a pass by screening. */
+static void put_verdicts(CzReportTable *table, const CzReport *report) {
+    cz_table_put(table, "verdict of all checks");
+    cz_table_put(table, "");
+    for (int i = 0; i < report->n_compared; i++) {
+        const CzEvaluation *evaluation = report->compared[i].evaluation;
+        const CzVerdict verdict = evaluation->verdict;
+        char text[CZ_LABEL_ROOM];
+        snprintf(text, sizeof text, "%s%s", cz_verdict_word(verdict),
+                 cz_verdict_is_screening(verdict, evaluation->n_not_covered) ? " (screening)" : "");
+        cz_table_put_styled(table, text, cz_verdict_style(verdict));
+    }
+}
+
 void cz_compared_begin_checks(CzReportTable *table, const CzReport *report, int *n_same) {
     const CzEvaluation *first = report->compared[0].evaluation;
     *n_same = 0;
     begin(table, report, "check;>limit");
+    put_verdicts(table, report);
     for (int k = 0; k < first->n_check; k++) {
         const CzCheckResult *check = &first->check[k];
         char text[CZ_CHECK_ROOM + 24], value[CZ_CHECK_ROOM];
@@ -287,16 +304,32 @@ static void write_inputs(const CzReport *report, CzTerminal *terminal) {
             comparison->n_input == 1 ? " differs" : "s differ", comparison->n_same_input);
 }
 
+/* Trains and vehicles of other names. */
+static void write_names(const CzReport *report, CzTerminal *terminal) {
+    char text[CZ_SENTENCE_ROOM];
+    bool any = false;
+    for (int i = 1; i < report->n_compared; i++)
+        if (cz_compared_names_sentence(report, i, sizeof text, text)) {
+            cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s.\n", text);
+            any = true;
+        }
+    if (any)
+        fputc('\n', terminal->stream);
+}
+
 void cz_comparison_write_table(const CzReport *report, CzTerminal *terminal) {
     CzReportTable table;
     int n_same;
     if (report->n_compared < 1 || cz_compared_run(report, 0) == NULL)
         return;
+    write_names(report, terminal);
     write_inputs(report, terminal);
     fprintf(terminal->stream, "scenario %s\n\n", cz_compared_run(report, 0)->scenario);
     cz_compared_begin_checks(&table, report, &n_same);
     cz_table_write_text(&table, terminal);
-    fprintf(terminal->stream, "%d check%s the same.\n\n", n_same, n_same == 1 ? " is" : "s are");
+    fprintf(terminal->stream, "%d check%s the same.\n", n_same, n_same == 1 ? " is" : "s are");
+    cz_screening_print(report->compared[0].problem, terminal);
+    fputc('\n', terminal->stream);
     cz_compared_begin_numbers(&table, report, true, false);
     cz_table_write_text(&table, terminal);
     fputc('\n', terminal->stream);

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/index.h"
 #include "problem/values.h"
+#include "report/compared_names.h"
 
 /* The values or numbers of one run, found by their paths. */
 typedef struct Listed {
@@ -27,6 +28,68 @@ typedef struct Comparing {
     CzIndex missing; /* parts that only some problems have and that were listed */
 } Comparing;
 
+/* ---- names ---- */
+
+static bool has_train(const CzInput *input, const char *name) {
+    for (int i = 0; i < input->n_trains; i++)
+        if (strcmp(input->trains[i].name, name) == 0)
+            return true;
+    return false;
+}
+
+static bool has_vehicle(const CzProblem *problem, const char *name) {
+    int n;
+    const CzVehicle *vehicle = cz_problem_vehicles(problem, &n);
+    for (int i = 0; i < n; i++)
+        if (strcmp(vehicle[i].name, name) == 0)
+            return true;
+    return false;
+}
+
+static void add_name(Comparing *comparing, int run, const char *first, const char *other) {
+    CzComparison *comparison = &comparing->comparison;
+    CzComparedName *grown = cz_arena_grow(&comparing->arena, comparison->name, comparison->n_name,
+                                          sizeof *comparison->name);
+    if (grown == NULL)
+        return;
+    comparison->name = grown;
+    grown[comparison->n_name++] = (CzComparedName){run, first, other};
+}
+
+static void pair_vehicles(Comparing *comparing, int run, const CzTrain *first,
+                          const CzTrain *other) {
+    const CzReportRun *compared = comparing->report->compared;
+    if (first->n_vehicles != other->n_vehicles)
+        return;
+    for (int i = 0; i < first->n_vehicles; i++) {
+        const char *name = first->vehicles[i].name, *its = other->vehicles[i].name;
+        if (!has_vehicle(compared[0].problem, its) && !has_vehicle(compared[run].problem, name))
+            add_name(comparing, run, name, its);
+    }
+}
+
+static void pair_trains(Comparing *comparing, int run) {
+    const CzReportRun *compared = comparing->report->compared;
+    const CzInput *first = cz_problem_input(compared[0].problem);
+    const CzInput *other = cz_problem_input(compared[run].problem);
+    for (int i = 0; i < first->n_trains && i < other->n_trains; i++) {
+        const CzTrain *train = &first->trains[i], *its = &other->trains[i];
+        const bool is_same = strcmp(train->name, its->name) == 0;
+        if (!is_same && (has_train(first, its->name) || has_train(other, train->name)))
+            continue;
+        if (!is_same)
+            add_name(comparing, run, train->name, its->name);
+        pair_vehicles(comparing, run, train, its);
+    }
+}
+
+/* Pairs trains by their order, and vehicles of trains of equal length by their place. A name that
+ * both problems have is that of one thing, and is not paired. */
+static void pair_names(Comparing *comparing) {
+    for (int run = 1; run < comparing->report->n_compared; run++)
+        pair_trains(comparing, run);
+}
+
 /* ---- inputs ---- */
 
 /* Adds every beginning of a path. */
@@ -43,7 +106,13 @@ static CzStatus list_inputs(Comparing *comparing, CzError *error) {
         CZ_TRY(cz_problem_list_values(comparing->report->compared[i].problem, &comparing->arena,
                                       &listed->n, &listed->value, error));
         for (int k = 0; k < listed->n; k++) {
-            const char *path = listed->value[k].path;
+            CzProblemValue *value = &listed->value[k];
+            const char *path = value->path =
+                cz_compared_names_in(&comparing->comparison, i, value->path, &comparing->arena);
+            value->text =
+                cz_compared_names_in(&comparing->comparison, i, value->text, &comparing->arena);
+            if (path == NULL || value->text == NULL)
+                return cz_no_memory(error, "a comparison");
             if (cz_index_find(&listed->by_path, path, strlen(path)) < 0)
                 cz_index_add(&listed->by_path, path, strlen(path), k);
             add_prefixes(listed, path);
@@ -179,6 +248,8 @@ typedef struct RunNumber {
 typedef struct RunNumbers {
     CzArena *arena;
     CzIndex by_path;
+    const CzComparison *comparison; /* with the names of the run */
+    int run;
     int n;
     RunNumber *number;
 } RunNumbers;
@@ -187,7 +258,10 @@ static void take_number(const char *path, const CzResult *result, double value, 
     RunNumbers *numbers = data;
     RunNumber *grown =
         cz_arena_grow(numbers->arena, numbers->number, numbers->n, sizeof *numbers->number);
-    const char *copy = cz_arena_copy_text(numbers->arena, path, strlen(path));
+    const char *named =
+        cz_compared_names_in(numbers->comparison, numbers->run, path, numbers->arena);
+    const char *copy =
+        named != NULL ? cz_arena_copy_text(numbers->arena, named, strlen(named)) : NULL;
     if (grown == NULL || copy == NULL)
         return;
     numbers->number = grown;
@@ -229,6 +303,8 @@ static void compare_numbers(Comparing *comparing) {
                                    .evaluation = comparing->report->compared[i].evaluation,
                                    .run = run};
         numbers[i].arena = numbers[i].by_path.arena = &comparing->arena;
+        numbers[i].comparison = &comparing->comparison;
+        numbers[i].run = i;
         if (run != NULL)
             cz_results_visit(CZ_RECORD_RUN, &context, run, take_number, &numbers[i]);
     }
@@ -246,6 +322,7 @@ CzStatus cz_comparison_make(const CzReport *report, CzComparison **comparison, C
     comparing->report = report;
     comparing->comparison.n_run = report->n_compared;
     comparing->missing.arena = &comparing->arena;
+    pair_names(comparing);
     CzStatus status = list_inputs(comparing, error);
     if (status == CZ_OK) {
         compare_inputs(comparing);

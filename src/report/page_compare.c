@@ -4,7 +4,9 @@
 #include "base/error.h"
 #include "report/charts.h"
 #include "report/compare.h"
+#include "report/compared_names.h"
 #include "report/options.h"
+#include "report/verdict_words.h"
 
 #include <limits.h>
 
@@ -17,6 +19,7 @@ static void write_checks(CzMarkup *markup, const CzReport *report) {
     cz_table_write_page(&table, markup);
     if (n_same > 0)
         cz_markup_write(markup, "<p>%d checks are the same.</p>", n_same);
+    cz_screening_write(report->compared[0].problem, markup);
     cz_markup_write(markup, "</section>\n");
 }
 
@@ -124,6 +127,9 @@ static void write_page(CzPage *page, const CzReport *report) {
                     page->summary->scenario);
     if (cz_compared_caution(report)[0] != '\0')
         cz_markup_write(markup, "<p class='fail'>%s</p>", cz_compared_caution(report));
+    for (int i = 1; i < report->n_compared; i++)
+        if (cz_compared_names_sentence(report, i, sizeof title, title))
+            cz_markup_write(markup, "<p>%s.</p>", title);
     write_inputs(markup, report);
     write_checks(markup, report);
     cz_markup_write(markup, "<section id='numbers'>\n<h2>Interfaces and cars</h2>\n"

@@ -9,6 +9,7 @@ set(CZ_SOURCES_report
     charts.c
     checks_table.c
     compare.c
+    compared_names.c
     comparison.c
     corridor_figure.c
     corridor_table.c

@@ -85,6 +85,15 @@ sweep_agrees() {
         exits 0 "$C" compare one two --json && json out.txt runs.0.verdict pass && json out.txt runs.0.provisional true && json out.txt runs.0.screening true && json out.txt runs.1.verdict fail && json out.txt runs.1.screening false
 }
 check "sweeps and comparisons combine checks by the same rule" sweep_agrees
+renamed() {
+    sed 's/name: A,/name: Unit,/; s/\(speed_km_h: 5, vehicles: \[{\)/\1name: U1, /' elastic.yaml >unit.yaml &&
+        "$C" run elastic.yaml -o one -q >out.txt && "$C" run unit.yaml --set trains.Unit.speed_km_h=4 -o two -q >out.txt &&
+        exits 0 "$C" compare one two -o both.html && says out.txt 'Names of two are paired by place: Unit is A, U1 is A1' && says both.html 'Unit is A, U1 is A1' &&
+        says out.txt '1 input differs' && grep -qE '^A1-B1 +peak force kN +[0-9.]+ +[0-9.]+ +-' out.txt && grep -qE '^verdict of all checks +PROVISIONAL \(screening\) +PROVISIONAL \(screening\)$' out.txt &&
+        says out.txt 'A pass is one by screening: 2 requirements' && says both.html 'A pass is one by screening: 2 requirements' &&
+        exits 0 "$C" compare one two --json && json out.txt names.1.first A1 && json out.txt inputs.0.path trains.A.speed
+}
+check "compare pairs vehicles of other names by their place and says so, and has the remark of a screening" renamed
 studies_agree() {
     exits 0 "$C" sweep elastic.yaml --vary trains.A.speed_km_h=4:5:2 -o swept && says out.txt 'A pass is one by screening: 2 requirements of the profile are not covered.' &&
         says out.txt 'Not covered by this program, to be shown by other means: vestibules; obstacle deflector.' &&

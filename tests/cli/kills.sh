@@ -1,10 +1,12 @@
-# kills.sh N: searches that are killed (SIGKILL) at random moments, N times in all, and resumed: each ends in the same bytes
-# as the search that was left alone. Others are asked to end (SIGTERM) towards their end.
+# kills.sh N [DIVISOR]: searches that are killed (SIGKILL) at random moments, N times in all, and resumed: each ends in the same
+# bytes as the search that was left alone. Others are asked to end (SIGTERM) towards their end. The numbers of evaluations are
+# divided by DIVISOR where sanitizers slow them down.
 . "$SOURCE/tests/support/cases.sh"
 . "$SOURCE/tests/cli/cli.sh"
 wanted=$1
+divisor=${2:-1}
 "$C" new -q
-cat >choice.yaml <<'END'
+cat >choice.yaml <<END
 schema: 1
 title: two buffers to choose from
 parts:
@@ -21,7 +23,7 @@ trains:
   - {name: B, vehicles: [{use: car}]}
 checks: {design_rules: false, limits: [{name: force, metric: interfaces.peak_force_kN, max: 600}]}
 optimise:
-  evaluations: 60
+  evaluations: $((60 / divisor))
   variables:
     - {path: parts.end.coupler.buffer, choices: [soft, hard]}
     - {path: "parts.end.coupler.tube.stages[0].force_kN", min: 550, max: 900, increment: 10}
@@ -30,13 +32,13 @@ END
 # The searches: commands with file and options, one line each.
 cases() {
     cat <<END
-optimise two-trains.yaml --evaluations 60
-optimise two-trains.yaml --evaluations 60 --algorithm LN_COBYLA --jobs 1
-optimise two-trains.yaml --evaluations 60 --algorithm GN_ISRES --seed 3
-optimise two-trains.yaml --evaluations 40 --algorithm LD_SLSQP --set trains.A.speed_km_h=24
+optimise two-trains.yaml --evaluations $((60 / divisor))
+optimise two-trains.yaml --evaluations $((60 / divisor)) --algorithm LN_COBYLA --jobs 1
+optimise two-trains.yaml --evaluations $((60 / divisor)) --algorithm GN_ISRES --seed 3
+optimise two-trains.yaml --evaluations $((40 / divisor)) --algorithm LD_SLSQP --set trains.A.speed_km_h=24
 optimise choice.yaml
-optimise $SOURCE/problems/paper-25kmh-identify.yaml --evaluations 80
-pareto $SOURCE/problems/length-or-force.yaml --minimise margin --minimise design.installed_length_mm -n 3 --evaluations 40
+optimise $SOURCE/problems/paper-25kmh-identify.yaml --evaluations $((80 / divisor))
+pareto $SOURCE/problems/length-or-force.yaml --minimise margin --minimise design.installed_length_mm -n 3 --evaluations $((40 / divisor))
 END
 }
 now() { date +%s.%N; }

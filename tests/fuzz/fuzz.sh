@@ -1,10 +1,10 @@
 # A fuzz target under address and undefined-behaviour sanitizers: no crash, no leak, no input that takes 20 s
 # (0.5 s without sanitizers on an idle machine) or 1 GB.
-# 20 s with a fixed seed; CZ_FUZZ_SECONDS asks for more, with another seed each time, and keeps in build/fuzz/corpus/
+# 8 s with a fixed seed; CZ_FUZZ_SECONDS asks for more, with another seed each time, and keeps in build/fuzz/corpus/
 # the corpus for the next time.
 . "$SOURCE/tests/support/cases.sh"
 target=$1
-seconds=${CZ_FUZZ_SECONDS:-20}
+seconds=${CZ_FUZZ_SECONDS:-8}
 seed=1
 corpus=corpus
 if [ -n "${CZ_FUZZ_SECONDS:-}" ]; then

@@ -1,4 +1,4 @@
-# Fuzz targets, one per reader. The preset `fuzz` links them with libFuzzer and lets each search for 20 s; every other
+# Fuzz targets, one per reader. The preset `fuzz` links them with libFuzzer and lets each search for 8 s; every other
 # build tries their seeds and their earlier findings.
 function(cz_fuzz_target target source)
     if(CZ_FUZZ)

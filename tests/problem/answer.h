@@ -48,7 +48,7 @@ static CzStatus write_answer(const CzProblem *problem, CzEvaluator *evaluator,
     return status;
 }
 
-static char *summary_of(const CzProblem *problem) {
+static char *summary_of(const CzProblem *problem, const char *scenario) {
     CzEvaluator *evaluator = NULL;
     CzEvaluation evaluation;
     CzError error = {0};
@@ -58,7 +58,9 @@ static char *summary_of(const CzProblem *problem) {
     size_t n = 0;
     if (cz_evaluator_build(problem, &options, &evaluator, &error) != CZ_OK)
         return NULL;
-    if (cz_evaluate(evaluator, 1, NULL, true, &evaluation, &error) == CZ_OK) {
+    const int n_scenario = scenario != NULL; /* 0: all of them */
+    if (cz_evaluator_set_scenarios(evaluator, n_scenario, &scenario, &error) == CZ_OK &&
+        cz_evaluate(evaluator, 1, NULL, true, &evaluation, &error) == CZ_OK) {
         FILE *stream = open_memstream(&text, &n);
         assert_non_null(stream);
         const CzStatus status = write_answer(problem, evaluator, &evaluation, stream, &error);
@@ -74,7 +76,8 @@ static char *summary_of(const CzProblem *problem) {
     return text;
 }
 
-static Answer answer_of(const char *text) {
+/* The answer of all scenarios, or of one alone. */
+static Answer answer_in(const char *text, const char *scenario) {
     Answer answer = {0};
     CzProblem *problem = NULL;
     CzError error = {0};
@@ -89,11 +92,15 @@ static Answer answer_of(const char *text) {
                  cz_problem_warning(problem, i)->message);
     }
     if (status == CZ_OK)
-        answer.text = summary_of(problem);
+        answer.text = summary_of(problem, scenario);
     if (answer.text == NULL)
         snprintf(answer.refusal, sizeof answer.refusal, "%s", error.message);
     cz_problem_free(problem);
     return answer;
+}
+
+static Answer answer_of(const char *text) {
+    return answer_in(text, NULL);
 }
 
 #endif

@@ -75,6 +75,7 @@ typedef struct {
     const CzProblem *problem;
     int n_wrong;               /* warnings that are missing or wrong */
     bool (*lacked)[MOST_KEYS]; /* keys without the key they act with, of every record */
+    bool is_quick;             /* looks for effects in the first scenario alone */
     Answer as_written;
     Found (*found)[MOST_KEYS][N_MODEL]; /* of every record (CZ_N_RECORD) */
 } Walk;
@@ -125,7 +126,7 @@ static Effect effect_of(const Walk *walk, const Trail *trail, const char *writte
     snprintf(text + strlen(text), sizeof text - strlen(text), "%s", written);
     for (int i = 0; i < trail->n; i++)
         snprintf(text + strlen(text), sizeof text - strlen(text), "}");
-    Answer answer = answer_with(walk->setting, text);
+    Answer answer = answer_with(walk->setting, text, walk->is_quick ? FIRST_SCENARIO : NULL);
     const Effect effect = answer.text == NULL                               ? REFUSED
                           : strcmp(answer.text, walk->as_written.text) != 0 ? DIFFERENCE
                                                                             : NOTHING;
@@ -175,7 +176,10 @@ static void look_at_key(Walk *walk, CzRecordId id, int index, const char *record
     Found *found = &walk->found[id][index][walk->setting->model];
     const bool acts = cz_key_acts_on(key, walk->setting->model);
     const Changes changes = changes_of(id, key, record);
-    if (acts && !cz_field_acts(walk->problem, key, record + key->offset)) {
+    const bool is_lacking = acts && !cz_field_acts(walk->problem, key, record + key->offset);
+    if (walk->is_quick && (!acts || is_lacking))
+        return;
+    if (is_lacking) {
         look_at_lacking(walk, id, index, &changes, trail);
         return;
     }
@@ -197,7 +201,7 @@ static void look_at_key(Walk *walk, CzRecordId id, int index, const char *record
 static void look_at_child(Walk *walk, CzRecordId id, int index, const Trail *trail) {
     char gone[64];
     const CzKey *key = &cz_records[id].key[index];
-    if (is_left_out(walk, id, index))
+    if (walk->is_quick || is_left_out(walk, id, index))
         return;
     snprintf(gone, sizeof gone, "%s: null", key->stem);
     const Effect effect = effect_of(walk, trail, gone, NULL, NULL);
@@ -218,7 +222,7 @@ static void look_at_stages(Walk *walk, const CzStage *stage, int n_stage, const 
             const bool acts = cz_field_acts(walk->problem, &record->key[index],
                                             memory + record->key[index].offset);
             const Found before = *found;
-            if (acts && before == ACTS)
+            if (acts ? before == ACTS : walk->is_quick)
                 continue;
             *found = IDLE;
             for (int i = 0; i < changes.n && *found != ACTS; i++) {
@@ -331,24 +335,33 @@ static int count_conditions_without_case(bool lacked[CZ_N_RECORD][MOST_KEYS]) {
     return n;
 }
 
+static int look_at_setting(Walk *walk) {
+    CzProblem *problem = NULL;
+    const CzVehicle *vehicle = read_tested(walk->setting, &problem);
+    walk->problem = problem;
+    walk->as_written = answer_with(walk->setting, "", walk->is_quick ? FIRST_SCENARIO : NULL);
+    if (walk->as_written.text == NULL)
+        fail_msg("setting %d: %s", (int)(walk->setting - settings), walk->as_written.refusal);
+    look_at_record(walk, CZ_RECORD_CzVehicle, (const char *)vehicle, &(Trail){0});
+    answer_free(&walk->as_written);
+    cz_problem_free(problem);
+    return walk->n_wrong;
+}
+
 static void every_key_of_a_vehicle_acts_or_is_warned_of(void **state) {
     (void)state;
     static Found found[CZ_N_RECORD][MOST_KEYS][N_MODEL];
     static bool lacked[CZ_N_RECORD][MOST_KEYS];
     int n_wrong = 0;
     read_base();
-    for (int i = 0; i < N_SETTING; i++) {
-        Walk walk = {.setting = &settings[i], .found = found, .lacked = lacked};
-        CzProblem *problem = NULL;
-        const CzVehicle *vehicle = read_tested(walk.setting, &problem);
-        walk.problem = problem;
-        walk.as_written = answer_with(walk.setting, "");
-        if (walk.as_written.text == NULL)
-            fail_msg("setting %d: %s", i, walk.as_written.refusal);
-        look_at_record(&walk, CZ_RECORD_CzVehicle, (const char *)vehicle, &(Trail){0});
-        answer_free(&walk.as_written);
-        cz_problem_free(problem);
-        n_wrong += walk.n_wrong;
+    /* Most effects show in the first scenario of some setting, which takes a quarter of the time of
+     * all; all scenarios are run for the other keys, and for those that must not act. */
+    for (int i = 0; i < 2 * N_SETTING; i++) {
+        Walk walk = {.setting = &settings[i % N_SETTING],
+                     .is_quick = i < N_SETTING,
+                     .found = found,
+                     .lacked = lacked};
+        n_wrong += look_at_setting(&walk);
     }
     assert_int_equal(n_wrong, 0);
     assert_int_equal(count_conditions_without_case(lacked), 0);

@@ -283,9 +283,12 @@ static void put_numerics(void) {
     rows_of_impact(&rows);
     rows_of_runs_on_rails(&rows);
     put_table();
-    begin("C5. Energy and momentum of every shipped problem",
-          "On the elastic track of production runs, then on rigid rails where the file has them. "
-          "Errors are relative to the initial energy, and to the sum of mass times speed.");
+    begin(
+        "C5. Energy and momentum of every shipped problem",
+        "On the elastic track up to 2 s, long after the largest forces, then on rigid rails where "
+        "the file has them. Errors are relative to the initial energy, and to the sum of mass "
+        "times speed.\n"
+        "Every run of the program checks its own balance up to its end.");
     rows_of_balances(&rows);
     rows_of_balances_on_rigid_rails(&rows);
     put_table();

@@ -3,6 +3,7 @@
 
 #include <locale.h>
 #include <ctype.h>
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -154,9 +155,27 @@ static void print_digits(char text[CZ_NUMBER_TEXT], int digits, double value) {
     snprintf(text, CZ_NUMBER_TEXT, "%.*f", n_decimal > 0 ? n_decimal : 0, value);
 }
 
+/* Fewest significant digits that may read back to the same bits. With 15 digits every decimal
+ * number of so many or fewer survives, so that zeros at its end tell; below the normal numbers this
+ * fails.
+ */
+static int fewest_digits(double value) {
+    char text[CZ_NUMBER_TEXT];
+    if (!isfinite(value) || fabs(value) < DBL_MIN)
+        return 1;
+    snprintf(text, sizeof text, "%.*e", DBL_DIG - 1, value);
+    if (strtod(text, NULL) != value)
+        return DBL_DIG + 1;
+    const char *end = strchr(text, 'e');
+    int digits = DBL_DIG;
+    while (digits > 1 && end[digits - DBL_DIG - 1] == '0')
+        digits--;
+    return digits;
+}
+
 const char *cz_number_print(char text[CZ_NUMBER_TEXT], double value) {
     const LocaleGuard guard = locale_enter();
-    for (int digits = 1; digits <= 17; digits++) {
+    for (int digits = fewest_digits(value); digits <= DBL_DIG + 2; digits++) {
         print_digits(text, digits, value);
         if (!isfinite(value) || strtod(text, NULL) == value)
             break;

@@ -4,6 +4,8 @@
 #include "base/number.h"
 #include "base/suggest.h"
 
+#include <ctype.h>
+
 static void good_numbers_are_read_to_the_nearest_double(void **state) {
     (void)state;
     static const struct {
@@ -67,6 +69,37 @@ static void written_numbers_read_back_to_the_same_bits(void **state) {
     }
 }
 
+/* Significant digits of a text, without zeros at the ends. */
+static int count_digits(const char *text) {
+    int n = 0, n_zero = 0;
+    for (; *text != '\0' && *text != 'e'; text++) {
+        if (!isdigit((unsigned char)*text))
+            continue;
+        n_zero = *text == '0' ? n_zero + 1 : 0;
+        n += n > 0 || *text != '0';
+    }
+    return n - n_zero;
+}
+
+static void no_number_has_more_digits_than_it_needs(void **state) {
+    (void)state;
+    unsigned long bits = 1;
+    for (int i = 0; i < 20000; i++) {
+        double value;
+        char text[CZ_NUMBER_TEXT], shorter[CZ_NUMBER_TEXT];
+        bits = bits * 6364136223846793005UL + 1442695040888963407UL;
+        memcpy(&value, &bits, sizeof value);
+        if (!isfinite(value))
+            continue;
+        if (i % 2 == 0) /* of few digits */
+            value = round(1e4 * ldexp(value, -ilogb(value))) / 1e5;
+        const int n = count_digits(cz_number_print(text, value));
+        assert_true(strtod(text, NULL) == value);
+        snprintf(shorter, sizeof shorter, "%.*e", n > 1 ? n - 2 : 0, value);
+        assert_true(n <= 1 || strtod(shorter, NULL) != value);
+    }
+}
+
 static void written_numbers_have_a_readable_form(void **state) {
     (void)state;
     char text[CZ_NUMBER_TEXT];
@@ -111,6 +144,7 @@ int main(void) {
         cmocka_unit_test(good_numbers_are_read_to_the_nearest_double),
         cmocka_unit_test(text_that_is_not_a_number_is_refused_with_a_reason),
         cmocka_unit_test(written_numbers_read_back_to_the_same_bits),
+        cmocka_unit_test(no_number_has_more_digits_than_it_needs),
         cmocka_unit_test(written_numbers_have_a_readable_form),
         cmocka_unit_test(the_nearest_word_is_suggested),
         cmocka_unit_test(a_word_that_resembles_none_gets_no_suggestion),

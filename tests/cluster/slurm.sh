@@ -98,14 +98,14 @@ lost() { # without any time to end, as with a node that fails
     # shellcheck disable=SC2086
     job=$(sbatch --parsable $options "$scripts/optimise-mpi.sbatch" two.yaml) && begun 60 && scontrol requeue "$job" && next_turn "$job" && waits && says optimise.log 'DUE TO JOB REQUEUE' || { cat optimise.log; return 1; }
 }
-limited() { # the time limit of a minute ends it, more than once if it has to
+limited() { # the time limit of a minute ends it, more than once if it has to; the next turn is longer, as all after the search is done in one turn
     sed 's/^  evaluations: .*//; s/^optimise:/&\n  evaluations: 80/' "$SOURCE/problems/metro-6-car.yaml" >metro.yaml && ln -s "$SOURCE"/problems/* . 2>/dev/null
     # shellcheck disable=SC2086
     job=$(sbatch --parsable --time=1 --signal=TERM@40 $options "$scripts/optimise-mpi.sbatch" metro.yaml) || return 1
     for try in $(seq 1200); do
         case $(state_of "$job") in
         '') break ;;
-        PENDING) scontrol update jobid="$job" StartTime=now ;;
+        PENDING) scontrol update jobid="$job" StartTime=now TimeLimit=+1 ;;
         esac
         sleep 0.5
     done

@@ -51,7 +51,7 @@ version() { field Version | grep -q "^$("$PROGRAM" version | sed 's/crushzone \(
 zcat_changelog() { dpkg-deb --fsys-tarfile "$deb" | tar -xO ./usr/share/doc/crushzone/changelog.Debian.gz | gzip -dc; }
 check "its version is that of the program, and its changelog names it" version
 if command -v lintian >/dev/null 2>&1; then
-    nothing "lintian finds nothing" lintian --no-cfg --allow-root "$deb"
+    nothing "lintian finds nothing" lintian --no-cfg --allow-root root/build/package/*.deb
 else
     skipped "lintian finds nothing" "no lintian; packages.txt, [package]"
 fi
@@ -63,6 +63,18 @@ dpkg-deb -x "$deb" unpacked
 unpacked() { (cd elsewhere && exits 0 ../unpacked/usr/bin/crushzone new two-trains -q && exits 0 ../unpacked/usr/bin/crushzone optimise two-trains.yaml -q && [ -s out-optimised/report.html ]); }
 check "the program runs from the unpacked package" unpacked
 check "it looks for its data in /usr/share" sh -c 'cd elsewhere && sed "s|generic.yaml|nowhere-at-all.yaml|" cars.yaml >nowhere.yaml && ! ../unpacked/usr/bin/crushzone validate nowhere.yaml 2>told && grep -q "/usr/share/crushzone" told'
+if [ -x "$BUILD/crushzone-mpi" ]; then
+    ranks_deb=$(ls root/build/package/crushzone-mpi_*.deb)
+    ranks_need() { # the same version, Open MPI, and no library that crushzone depends on already
+        dpkg-deb -f "$ranks_deb" Depends | tr , '\n' | sed 's/^ *//; s/ (>=.*//' | sort | tr '\n' ' ' >needed.ranks && cat needed.ranks && [ "$(cat needed.ranks)" = "crushzone (= $(field Version)) libc6 libopenmpi3 openmpi-bin " ]
+    }
+    check "crushzone-mpi has a package that depends on it and on Open MPI" ranks_need
+    dpkg-deb -x "$ranks_deb" unpacked
+    ranks_run() { (cd elsewhere && "$PROGRAM" new two-trains -q -o ranks.yaml && mpirun --quiet --oversubscribe --allow-run-as-root -n 2 ../unpacked/usr/bin/crushzone-mpi run ranks.yaml -q -o ranks >/dev/null && ../unpacked/usr/bin/crushzone run ranks.yaml -q -o threads >/dev/null && cmp ranks/channels.csv threads/channels.csv); }
+    check "the program for mpirun runs from the unpacked packages" ranks_run
+else
+    skipped "crushzone-mpi has a package that depends on it and on Open MPI" "built without MPI: install [mpi] of packages.txt"
+fi
 own_library() { LD_LIBRARY_PATH='' ldd unpacked/usr/bin/crushzone | grep -q "libcrushzone.*/unpacked/usr/.*/lib/crushzone/lib/"; }
 check "it takes its library from the package" own_library
 if [ -d "$SOURCE/python/crushzone" ] && command -v python3 >/dev/null 2>&1; then

@@ -14,6 +14,9 @@ with_small_metro() { # with_small_metro FOLDER: the project there with another m
     "$PROGRAM" new two-trains -q -o "$1/problems/metro-6-car.yaml"
 }
 
+# Studies of a thousand designs are run with a few.
+: "${DESIGNS:=8}"
+export DESIGNS
 PATH=$BUILD:$PATH
 # As the user of a container, with more ranks than processors.
 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_orte_execute_quiet=1

@@ -67,7 +67,8 @@ static void line_up_coupler(CzCarrier a, CzCarrier b, const CzCouplerRows *restr
         const double vx = pair.b.velocity_x - pair.a.velocity_x;
         const double vz = tilts * (pair.b.velocity_z - pair.a.velocity_z);
         const double apart = sqrt(pair.x * pair.x + pair.z * pair.z);
-        const double strut = pair.x < 0.0 ? -apart : apart; /* the run fails where pivots pass */
+        const double strut =
+            pair.x < 0.0 ? -apart : apart; /* the run of a strut fails where its pivots pass */
         const double l = tilts > 0.0 ? strut : pair.x;
         const double inverse = 1.0 / (tilts > 0.0 ? strut : 1.0);
         const double nx = tilts > 0.0 ? pair.x * inverse : 1.0, nz = pair.z * inverse;

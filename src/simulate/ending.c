@@ -161,14 +161,22 @@ static bool fails_to_fit(CzBatch *batch, int design) {
     return false;
 }
 
-/* Fails the design when a coupler has shortened by its length from pivot to face: two pivots at the
- * same place define no line. Cars that have climbed slide over each other, which is beyond the
- * model's validity. */
+/* Whether a coupler of an interface has sheared off, so that it no longer acts as a strut. */
+static bool is_released(const CzBatch *batch, size_t lane) {
+    return cz_coupler_is_sheared(batch->dynamics, lane, 0) ||
+           cz_coupler_is_sheared(batch->dynamics, lane, 1);
+}
+
+/* Fails the design when a coupler that acts as a strut has shortened by its length from pivot to
+ * face: two pivots at the same place define no line. Cars that have climbed slide over each other,
+ * which is beyond the model's validity. */
 static bool fails_to_keep_apart(CzBatch *batch, int design) {
     char what[160];
     for (int car = 0; car + 1 < batch->n_car && isnan(batch->design[design].override_time); ++car)
         for (int side = 0; side < 2; ++side) {
             const size_t lane = cz_lane(batch, car, design);
+            if (is_released(batch, lane))
+                continue;
             const double length = batch->equipment[lane].side[side].strut_length;
             double shortened = cz_memory(batch, CZ_MEMORY(coupler.side[side].buffer.stroke), lane);
             for (int k = 0; k < N_OF_COUPLER; ++k)

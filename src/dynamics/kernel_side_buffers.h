@@ -8,7 +8,26 @@
 #include "dynamics/stored.h"
 #include "laws/slider.h"
 
-static void list_side_buffers(CzBlock *d, const Contact *contact, double step, BufferChain *of) {
+/* Rise of the strengths of anti-climbers in the place of crash elements, by the closing speed at
+ * first contact, which is frozen. */
+typedef struct {
+    _Alignas(64) CzRow of[2];
+} PlateRise;
+
+static void freeze_plate_speed(CzBlock *d, const Contact *restrict contact,
+                               PlateRise *restrict rise) {
+    const CzSideBufferRows *restrict rows = &d->parameter.side_buffers;
+    const double *restrict speed = d->memory->side_buffers.speed;
+    double *restrict next = d->next_memory->side_buffers.speed;
+    CZ_LANES (i) {
+        next[i] = cz_first_speed(contact->closure[i], contact->rate[i], speed[i]);
+        rise->of[0][i] = rows->side[0].speed_factor[i] * next[i];
+        rise->of[1][i] = rows->side[1].speed_factor[i] * next[i];
+    }
+}
+
+static void list_side_buffers(CzBlock *d, const Contact *contact, double step,
+                              const PlateRise *rise, BufferChain *of) {
     const CzSideBufferRows *rows = &d->parameter.side_buffers;
     const CzSideBufferMemory *memory = &d->memory->side_buffers;
     CzSideBufferMemory *next = &d->next_memory->side_buffers;
@@ -23,6 +42,7 @@ static void list_side_buffers(CzBlock *d, const Contact *contact, double step, B
                       memory->side[side].tube_energy, next->side[side].tube_energy);
         of->chain.plastic[side] = collapsing(&d->curve.side_tube[side], rows->side[side].tube_rate,
                                              memory->side[side].tube, next->side[side].tube);
+        of->chain.plastic[side].rise = rise->of[side];
     }
 }
 
@@ -50,10 +70,12 @@ static void slide_plates(CzBlock *d, const Contact *restrict contact,
 static void side_buffers(CzBlock *d, double step) {
     const CzSideBufferRows *rows = &d->parameter.side_buffers;
     Contact contact;
+    PlateRise rise;
     BufferChain of;
     line_up_contact(d, end_at(d, 0), end_at(d, 1), &rows->contact, &contact);
     memcpy(d->published.side_buffers.closure, contact.closure, sizeof(CzRow));
-    list_side_buffers(d, &contact, step, &of);
+    freeze_plate_speed(d, &contact, &rise);
+    list_side_buffers(d, &contact, step, &rise, &of);
     memset(of.chain.now.lowest, 0, sizeof(CzRow));
     memcpy(of.chain.now.active, rows->exists, sizeof(CzRow));
     solve_chain(&of.chain, &d->published);

@@ -55,6 +55,7 @@ typedef struct CzGripMemory {
 typedef struct CzSideBufferMemory {
     CzRow force;         /* through the chain [N] */
     CzRow slip_vertical; /* of the plates [m] */
+    CzRow speed;         /* closing speed at first contact; 0 before [m/s] */
     struct {
         CzBufferMemory buffer;
         CzRow tube;        /* plastic stroke of the crash element [m] */

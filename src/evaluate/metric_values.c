@@ -1,6 +1,7 @@
 /* The metrics, one per entry of results.def, and the values that are judged. */
 #include "evaluate/devices.h"
 #include "evaluate/metric.h"
+#include "evaluate/unfollowed.h"
 #include "problem/meeting.h"
 #include "simulate/pulse.h"
 
@@ -218,27 +219,8 @@ static double breaks_rules(const CzPlace *place) {
     return cz_problem_check_vehicles(place->problem, place->vehicles, NULL) != CZ_OK;
 }
 
-/* Whether an anti-climber of the colliding ends passes over or under the other end: heights decide
- * where a vehicle is full and none is fixed. */
-static bool face_passes(const CzPlace *place) {
-    const CzScene *scene = place->scene;
-    const CzVehicle *behind = &place->vehicles[scene->record[scene->colliding]];
-    const CzVehicle *ahead = &place->vehicles[scene->record[scene->colliding + 1]];
-    const CzEnd *end[2] = {&behind->front, &ahead->rear};
-    if ((behind->model != CZ_MODEL_FULL && ahead->model != CZ_MODEL_FULL) ||
-        behind->model == CZ_MODEL_FIXED || ahead->model == CZ_MODEL_FIXED)
-        return false;
-    for (int i = 0; i < 2; i++) {
-        const CzMeets meets =
-            cz_part_meets(end[i], CZ_PART_FACE, end[1 - i], i == 0 ? scene->rise : -scene->rise);
-        if (end[i]->anti_climber.given && (meets == CZ_PASSES_OVER || meets == CZ_PASSES_UNDER))
-            return true;
-    }
-    return false;
-}
-
 /* An override in a run always counts; the absence of one is known only when every full vehicle
- * declares its stops, and no anti-climber passes the other end, which the model does not follow. */
+ * declares its stops, and the model follows all contacts of the colliding ends. */
 static double climbed(const CzPlace *place) {
     if (place->run->beyond_validity)
         return 1;
@@ -247,7 +229,7 @@ static double climbed(const CzPlace *place) {
         if (record->model == CZ_MODEL_FULL && !place->run->vehicle[i].checks_override)
             return NAN;
     }
-    return place->must_declare && !face_passes(place) ? 0 : NAN;
+    return place->must_declare && !cz_contact_is_unfollowed(place) ? 0 : NAN;
 }
 
 /* ---- pulses ---- */

@@ -44,6 +44,7 @@ set(CZ_SOURCES_evaluate
     sweep_axis.c
     sweep_curves.c
     sweep_reach.c
+    unfollowed.c
     tasks.c
     variant.c
     variations.c

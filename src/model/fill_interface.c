@@ -304,6 +304,7 @@ static CzStatus fill_device_on_plates(const CzEnds *ends, int which, double *com
     CZ_TRY(cz_fill_anti_climber(ends->fill, cz_ends_part_name(ends, which, "anti-climber"), device,
                                 CZ_CURVE(side_tube[which])));
     rows->side[which].tube_rate[ends->i] = device->rate_factor;
+    rows->side[which].speed_factor[ends->i] = device->speed_factor / device->speed_reference;
     *compliance += 1.0 / (device->stiffness * device->count);
     return fill_buffer(ends, cz_ends_part_name(ends, which, "side buffer"), NULL, 1,
                        CZ_CURVE(side_buffer[which]), &rows->side[which].buffer);

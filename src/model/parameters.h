@@ -183,7 +183,8 @@ typedef struct CzSideBufferRows {
     CzRow friction;     /* [-] */
     struct {
         CzBufferRows buffer;
-        CzRow tube_rate; /* rate factor of the crash element [s/m] */
+        CzRow tube_rate;    /* rate factor of the crash element [s/m] */
+        CzRow speed_factor; /* of an anti-climber in its place, over reference speed [s/m] */
     } side[2];
 } CzSideBufferRows;
 

@@ -1,6 +1,8 @@
 /* Which part of an end meets which part of the end that it faces. */
 #include "problem/meeting.h"
 
+#include <math.h>
+
 #define PLATE_HEIGHT 0.34 /* of a side buffer [m] (ours) */
 
 bool cz_end_has(const CzEnd *end, CzPartKind kind) {
@@ -52,6 +54,14 @@ CzMeets cz_part_meets(const CzEnd *end, CzPartKind kind, const CzEnd *opposite, 
     if (part.low > structure.high + rise)
         return CZ_PASSES_OVER;
     return part.high < structure.low + rise ? CZ_PASSES_UNDER : CZ_STRIKES;
+}
+
+bool cz_parts_may_pass(const CzEnd *end, CzPartKind kind, const CzEnd *opposite, double rise) {
+    static const double most[CZ_N_PART] = {
+        [CZ_PART_COUPLER] = 0.2, [CZ_PART_SIDE_BUFFERS] = PLATE_HEIGHT};
+    return most[kind] > 0.0 && cz_end_has(end, kind) && cz_end_has(opposite, kind) &&
+           fabs(cz_part_heights(opposite, kind).low + rise - cz_part_heights(end, kind).low) >
+               most[kind]; /* not for NaN: heights do not matter */
 }
 
 bool cz_end_is_struck(const CzEnd *end, const CzEnd *opposite, double rise) {

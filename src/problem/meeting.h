@@ -45,6 +45,10 @@ CzHeightRange cz_structure_heights(const CzEnd *end);
  * than in its file; NaN where heights do not matter: at a wall, and between two rigid vehicles. */
 CzMeets cz_part_meets(const CzEnd *end, CzPartKind kind, const CzEnd *opposite, double rise);
 
+/* Whether couplers or side buffers, which the model lets meet their kind at any heights, are so far
+ * apart that they may pass each other: beyond 200 mm, and the height of a plate (ours). */
+bool cz_parts_may_pass(const CzEnd *end, CzPartKind kind, const CzEnd *opposite, double rise);
+
 /* Mass in front of the crush zone of an end [kg]; 0 where it has none. That of a rigid vehicle
  * counts where a coupler or side buffers strike the end: then all parts act on it. */
 static inline double cz_end_mass(const CzVehicle *vehicle, const CzEnd *end) {

@@ -80,5 +80,4 @@ void cz_measured_read(CzProblem *problem);
  * nearest word. */
 int cz_input_find_scenario(const CzInput *input, const char *name, CzSuggestion *nearest);
 
-
 #endif

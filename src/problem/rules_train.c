@@ -109,35 +109,32 @@ static void warn_of_passing(const CzRules *rules, const Facing *facing, CzPartKi
                     CZ_MM((is_over ? structure.high : structure.low) + facing->rise));
 }
 
-/* Couplers and side buffers meet their kind at any height; so far apart they would pass. */
+/* Couplers and side buffers meet their kind at any height; the place is that of the lower one. */
 static void warn_of_heights_apart(const CzRules *rules, const Facing *facing, CzPartKind kind) {
-    static const double most[CZ_N_PART] = {[CZ_PART_COUPLER] = 0.2, [CZ_PART_SIDE_BUFFERS] = 0.34};
     const CzEnd *end = facing->end;
     const bool is_coupler = kind == CZ_PART_COUPLER;
-    if (most[kind] == 0.0 || !cz_end_has(end, kind) || !cz_end_has(facing->opposite, kind))
-        return;
     const double own = cz_part_heights(end, kind).low;
     const double other = cz_part_heights(facing->opposite, kind).low + facing->rise;
-    if (!(other - own > most[kind])) /* at the lower one; NaN where heights do not matter */
+    if (!cz_parts_may_pass(end, kind, facing->opposite, facing->rise) || other < own)
         return;
     cz_rule_warning(rules,
                     is_coupler ? (const void *)&end->coupler : (const void *)&end->side_buffers,
                     "the %s of '%.48s' meets that of '%.48s', which is %s higher: in reality it "
-                    "may pass under it",
+                    "may pass under it, so that override is NOT CHECKED",
                     is_coupler ? "coupler" : "pair of side buffers", name_of(facing->own->name),
                     name_of(facing->other->name), CZ_MM(other - own));
 }
 
-/* The strength of an anti-climber on plates does not depend on the closing speed. */
-static void warn_of_speed_factor(const CzRules *rules, const Facing *facing) {
+/* Anti-climbers on plates are a member of the chain of the side buffers, beside which there is no
+ * damper. */
+static void warn_of_damping(const CzRules *rules, const Facing *facing) {
     const CzAntiClimber *device = &facing->end->anti_climber;
-    if (cz_end_has(facing->end, CZ_PART_FACE) && device->speed_factor != 0 &&
+    if (cz_end_has(facing->end, CZ_PART_FACE) && device->damping != 0 &&
         cz_part_meets(facing->end, CZ_PART_FACE, facing->opposite, facing->rise) == CZ_MEETS_PLATES)
-        cz_rule_warning(
-            rules, &device->speed_factor,
-            "the speed factor of '%.48s' has no effect on the force of its anti-climber "
-            "on the side buffers of '%.48s'",
-            name_of(facing->own->name), name_of(facing->other->name));
+        cz_rule_warning(rules, &device->damping,
+                        "the damping of '%.48s' has no effect on the force of its anti-climber "
+                        "on the side buffers of '%.48s'",
+                        name_of(facing->own->name), name_of(facing->other->name));
 }
 
 /* A crush zone of a rigid vehicle acts on couplers and side buffers through the mass in front of
@@ -199,7 +196,7 @@ static void check_neighbours(const CzRules *rules, const CzVehicle *behind, cons
             warn_of_heights_apart(rules, &ends[i], (CzPartKind)kind);
         }
         warn_of_no_face_mass(rules, &ends[i]);
-        warn_of_speed_factor(rules, &ends[i]);
+        warn_of_damping(rules, &ends[i]);
         check_strut(rules, &ends[i]);
     }
 }

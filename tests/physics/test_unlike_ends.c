@@ -77,6 +77,20 @@ static void a_crash_box_in_line_with_the_buffers_presses_their_plates(void **sta
     collision_free(&collision);
 }
 
+/* The force on the plates rises with the closing speed at first contact: 1 + 0.2 x 10 / 20. */
+static void the_speed_factor_of_a_crash_box_acts_on_plates(void **state) {
+    (void)state;
+    Collision collision =
+        collide(PARTNERS,
+                WITH("trains.A.vehicles.A1.front.anti_climber.in_line_with_buffers=true",
+                     "trains.A.vehicles.A1.front.anti_climber.speed_factor=0.2",
+                     "trains.A.vehicles.A1.front.anti_climber.speed_reference_m_s=20"),
+                WAGON);
+    assert_completed(&collision);
+    assert_near(collision.summary->interface[0].peak_force, 1.1 * 2.9e6, 1e-3, 0.0);
+    collision_free(&collision);
+}
+
 /* A rigid mass onto one partner, fast enough for an energy [J]; masses in [t]. */
 static Collision press(int scenario, double partner, double energy) {
     char mass[64], speed[64];
@@ -205,12 +219,56 @@ static void an_interface_within_an_obstacle_is_judged_by_its_name_alone(void **s
     }
 }
 
+/* The verdict of a limit on override in a problem with settings. */
+static CzVerdict judge_override(const char *file, const char *const *set, int n_set) {
+    char text[600];
+    snprintf(text, sizeof text,
+             "extends: %s\nsimulation: {duration_s: 0.1, track: rigid}\nchecks: {"
+             "design_rules: false, limits: [{name: climbs, metric: override, max: 0}]}\n",
+             file);
+    CzProblem *problem = NULL;
+    CzEvaluator *evaluator = NULL;
+    CzEvaluation evaluation = {0};
+    CzError error = {0};
+    CzProblemOptions options = cz_problem_options_default();
+    options.set = set;
+    options.n_set = n_set;
+    if (cz_problem_read_text(text, strlen(text), "text.yaml", CZ_SOURCE_FOLDER, &options, &problem,
+                             &error) != CZ_OK)
+        fail_msg("%s", error.message);
+    assert_int_equal(cz_evaluator_build(problem, NULL, &evaluator, &error), CZ_OK);
+    assert_int_equal(cz_evaluate(evaluator, 1, NULL, false, &evaluation, &error), CZ_OK);
+    const char *const name = "climbs";
+    const CzVerdict verdict = cz_verdict_over(&evaluation, 1, &name);
+    cz_evaluation_free(&evaluation);
+    cz_evaluator_free(evaluator);
+    cz_problem_free(problem);
+    return verdict;
+}
+
+/* Couplers 250 mm apart would pass each other; a coupler on a headstock without friction slides. */
+static void no_pass_on_override_rests_on_a_contact_that_would_slip(void **state) {
+    (void)state;
+    static const char unit[] = "tests/physics/cases/unit-and-wagon.yaml";
+#define ON_HEADSTOCK "parts.cab.front.coupler.height_m=0.95"
+    assert_int_equal(judge_override("problems/two-cars-25kmh.yaml", NULL, 0), CZ_VERDICT_PASS);
+    assert_int_equal(
+        judge_override("problems/two-cars-25kmh.yaml",
+                       WITH("trains.B.height_offset_mm=250", "simulation.duration_s=0.02"), 2),
+        CZ_VERDICT_NOT_CHECKED);
+    assert_int_equal(judge_override(unit, WITH(ON_HEADSTOCK), 1), CZ_VERDICT_PASS);
+    assert_int_equal(judge_override(unit, WITH(ON_HEADSTOCK, "parts.wagon-end.face_friction=0"), 2),
+                     CZ_VERDICT_NOT_CHECKED);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(trains_onto_the_80_t_wagon_lose_the_plastic_energy),
         cmocka_unit_test(trains_onto_the_15_t_obstacle_lose_the_plastic_energy),
         cmocka_unit_test(a_crash_box_crushes_against_the_headstock),
         cmocka_unit_test(a_crash_box_in_line_with_the_buffers_presses_their_plates),
+        cmocka_unit_test(no_pass_on_override_rests_on_a_contact_that_would_slip),
+        cmocka_unit_test(the_speed_factor_of_a_crash_box_acts_on_plates),
         cmocka_unit_test(a_pair_of_wagon_buffers_takes_62_kj),
         cmocka_unit_test(the_coupler_of_the_regional_train_takes_528_kj),
         cmocka_unit_test(side_buffers_crush_the_obstacle_behind_them),

@@ -193,6 +193,16 @@ CZ_MUST_CHECK CZ_API CzStatus cz_evaluator_build(const CzProblem *problem,
                                                  CzEvaluator **evaluator, CzError *error);
 CZ_API void cz_evaluator_free(CzEvaluator *evaluator);
 
+/* A step of the force ladder that is out of order in a train as written. */
+typedef struct CzForceStep {
+    char where[CZ_WHERE_ROOM]; /* "A4 front" */
+    const char *what;          /* "the tube over the shear-off" */
+    double ratio;              /* of the two forces, above 1 */
+} CzForceStep;
+
+/* Lists up to `most` of them, each at the first of equal ends; returns their number. */
+CZ_API int cz_evaluator_force_order(const CzEvaluator *evaluator, int most, CzForceStep *step);
+
 CZ_API int cz_evaluator_n_variable(const CzEvaluator *evaluator);
 CZ_API const CzVariableInfo *cz_evaluator_variable(const CzEvaluator *evaluator, int variable);
 

@@ -85,6 +85,19 @@ static int check_search(const CzSession *session) {
     return cz_session_fail(session, &error);
 }
 
+/* Devices that yield before those in front of them. */
+static void print_force_order(const CzSession *session) {
+    enum { MOST = 20 };
+    CzForceStep step[MOST];
+    const int n = cz_evaluator_force_order(session->evaluator, MOST, step);
+    for (int i = 0; i < n; i++)
+        cz_print_note(
+            session->arguments,
+            "warning: force ladder out of order at %s: %s is %.2f, above 1 (docs/theory.md, "
+            "Force ladder)",
+            step[i].where, step[i].what, step[i].ratio);
+}
+
 /* Variables that a search will not vary. */
 static void print_fixed(const CzSession *session) {
     for (int i = 0; i < cz_evaluator_n_variable(session->evaluator); i++) {
@@ -117,6 +130,8 @@ static int validate_file(const CzArguments *arguments, const char *file) {
         print_fixed(&session);
     if (code == 0)
         code = print_models(&session);
+    if (code == 0)
+        print_force_order(&session);
     cz_session_end(&session);
     return code;
 }

@@ -16,6 +16,7 @@ set(CZ_SOURCES_evaluate
     explain.c
     explain_changes.c
     explain_checks.c
+    force_order.c
     activation.c
     candidate_changes.c
     case_names.c

@@ -28,12 +28,6 @@ CzStatus cz_history_add(const CzBatch *batch, int design) {
     return CZ_OK;
 }
 
-/* Speed of a car after a step, and force of the interface ahead of it. */
-static const double *values_of(const CzBatch *batch, int step, int car, int design) {
-    const double *chunk = batch->design[design].history.chunk[step / CZ_CHUNK];
-    return chunk + 2 * (step % CZ_CHUNK * batch->n_car + car);
-}
-
 void cz_history_free(CzHistory *history) {
     for (int i = 0; i < history->n_chunk; ++i)
         free(history->chunk[i]);
@@ -42,11 +36,30 @@ void cz_history_free(CzHistory *history) {
     history->n_chunk = history->n_step = 0;
 }
 
-/* Net contact force on a car: the push from behind less the push from ahead. */
-static double net_force(const CzBatch *batch, int step, int car, int design) {
+/* Values of a car after the first step of a chunk, its speed and the force of the interface ahead
+ * of it; those after the next step are two numbers for each car further. */
+static const double *values_in(const CzHistory *history, int chunk, int car) {
+    return history->chunk[chunk] + 2 * car;
+}
+
+/* Steps that a chunk holds. */
+static int n_in_chunk(const CzHistory *history, int chunk) {
+    const int left = history->n_step - chunk * CZ_CHUNK;
+    return left < CZ_CHUNK ? left : CZ_CHUNK;
+}
+
+/* Speeds of a car, and the net contact forces on it: the push from behind less that from ahead. */
+static void copy_steps(const CzBatch *batch, int car, int design, double *speed, double *force) {
+    const CzHistory *history = &batch->design[design].history;
+    const int stride = 2 * batch->n_car;
     const bool first = car == 0, last = car == batch->n_car - 1;
-    const double behind = first ? 0.0 : values_of(batch, step, car - 1, design)[1];
-    return behind - (last ? 0.0 : values_of(batch, step, car, design)[1]);
+    for (int chunk = 0, i = 0; chunk < history->n_chunk; ++chunk) {
+        const double *values = values_in(history, chunk, car);
+        for (int k = n_in_chunk(history, chunk); k > 0; --k, ++i, values += stride) {
+            speed[i] = values[0];
+            force[i] = (first ? 0.0 : values[-1]) - (last ? 0.0 : values[1]);
+        }
+    }
 }
 
 bool cz_history_pulse(const CzBatch *batch, int car, int design, CzArena *arena, CzPulse *pulse) {
@@ -57,10 +70,7 @@ bool cz_history_pulse(const CzBatch *batch, int car, int design, CzArena *arena,
            *force = cz_arena_numbers(arena, (size_t)n_step);
     if (speed == NULL || step_speed == NULL || force == NULL)
         return false;
-    for (int i = 0; i < n_step; ++i) {
-        step_speed[i] = values_of(batch, i, car, design)[0];
-        force[i] = net_force(batch, i, car, design);
-    }
+    copy_steps(batch, car, design, step_speed, force);
     for (int i = 0; i < n_sample; ++i)
         speed[i] = step_speed[i * every];
     *pulse = (CzPulse){.n_sample = n_sample,
@@ -74,6 +84,10 @@ bool cz_history_pulse(const CzBatch *batch, int car, int design, CzArena *arena,
 }
 
 void cz_history_forces(const CzBatch *batch, int interface, int design, double *force) {
-    for (int i = 0; i < batch->design[design].history.n_step; ++i)
-        force[i] = values_of(batch, i, interface, design)[1];
+    const CzHistory *history = &batch->design[design].history;
+    for (int chunk = 0, i = 0; chunk < history->n_chunk; ++chunk) {
+        const double *values = values_in(history, chunk, interface);
+        for (int k = n_in_chunk(history, chunk); k > 0; --k, values += 2 * batch->n_car)
+            force[i++] = values[1];
+    }
 }

@@ -207,6 +207,13 @@ folding() { exits 0 "$C" validate "$SOURCE/problems/two-cars-25kmh.yaml" && says
 check "validate prints the force at which a coupler folds" folding
 warned() { exits 0 "$C" validate "$SOURCE/problems/metro-6-car.yaml" && says err.txt 'interface A1-A2: the collapse tubes carry up to 1100.0 kN, more than F_crit, 1015.5 kN' && ! says err.txt 'interface A2-A3' >/dev/null; }
 check "validate warns of tubes that carry more than the force at which a train folds" warned
+ladder() {
+    two="$SOURCE/problems/two-cars-25kmh.yaml"
+    exits 0 "$C" validate "$two" && ! says err.txt 'force ladder' >/dev/null && exits 0 "$C" validate "$two" --set 'parts.front-coupler.shear_off.force_kN=500' &&
+        says err.txt 'force ladder out of order at A1 front: the tube over the shear-off is 1.20, above 1' &&
+        exits 0 "$C" validate "$SOURCE/problems/us-6-car-238.yaml" --set 'parts.us-inner-tube.stages[0].force_kN=1200' && says err.txt 'A1 front: the tube of the front over this one is 1.08'
+}
+check "validate warns of steps of the force ladder that are out of order" ladder
 verified() { exits 0 "$C" verify two-trains.yaml && says out.txt 'Verification: pass' && says out.txt 'Runge-Kutta'; }
 check "verify passes numbers that depend on no step and no solver" verified
 verified_json() { exits 0 "$C" verify two-trains.yaml --json && json out.txt format crushzone.verification && json out.txt verdict pass && json out.txt methods.adams.flips 0; }

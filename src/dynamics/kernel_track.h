@@ -22,26 +22,39 @@ static void put_rail(CzRailRows *rail, size_t lane, CzRailPoint point) {
     rail->flexibility_slope[lane] = point.flexibility_slope;
 }
 
-/* Reads the rails under one car. */
-static void look_under(const CzTrackMotion *track, const CzTrackUnder *under, CzBlock *d,
-                       size_t lane) {
-    double place[4];
-    CzComplex seat[4];
-    find_wheels(d, lane, place);
-    cz_track_shapes(track, place, under->shape, seat);
-    for (int axle = 0; axle < 4; ++axle)
-        put_rail(&d->rail[axle], lane,
-                 cz_track_on_spring(track->flexibility.corner, track->flexibility.term, 1,
-                                    track->per_spacing, cz_track_at(track, under, axle),
-                                    seat[axle]));
-}
-
 /* Reads the rails under the wheels of a block at their present places. */
 static void look_at_modes(const CzTrackMotion *track, CzBlock *d, int block) {
-    for (size_t i = 0; i < CZ_LANE_BLOCK; ++i) {
-        const CzTrackUnder *under = &track->under[(size_t)block * CZ_LANE_BLOCK + i];
-        if (under->state != NULL)
-            look_under(track, under, d, i);
+    _Alignas(64) CzRow place[4];
+    CzTrackTurns turns;
+    for (int axle = 0; axle < 4; ++axle) {
+        const double *restrict bogie_x = d->parameter.bogie_x, *restrict axle_x =
+                                                                   d->parameter.axle_x;
+        const double *restrict x = d->position.wheelset[axle].x;
+        CZ_LANES (i) {
+            place[axle][i] = cz_wheel_place(bogie_x[i], axle_x[i], axle) + x[i];
+        }
+    }
+    cz_track_turn(track, (const CzRow *)place, &turns);
+    for (int axle = 0; axle < 4; ++axle) {
+        CzRailRows *rail = &d->rail[axle];
+        const double *restrict cosine = turns.seat_re[axle], *restrict sine = turns.seat_im[axle];
+        CZ_LANES (i) {
+            const CzRailPoint point = cz_track_on_spring(
+                track->flexibility.corner, track->flexibility.term, 1, track->per_spacing,
+                (CzRailPoint){.z = 0.0}, (CzComplex){cosine[i], sine[i]});
+            rail->flexibility[i] = point.flexibility;
+            rail->flexibility_slope[i] = point.flexibility_slope;
+        }
+    }
+    for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
+        const CzTrackUnder *under = &track->under[block * CZ_LANE_BLOCK + i];
+        if (under->state == NULL)
+            continue;
+        for (int axle = 0; axle < 4; ++axle) {
+            const CzTrackDeflection look = cz_track_move_wheel(track, under, &turns, i, axle);
+            d->rail[axle].z[i] = look.z;
+            d->rail[axle].slope[i] = look.slope;
+        }
     }
 }
 

@@ -3,48 +3,121 @@
 
 #include <string.h>
 
-/* ---- constants of a step ---- */
+/* ---- rows of modes ---- */
 
 static void put(CzComplex value, int i, CzTrackRow re, CzTrackRow im) {
     re[i] = value.re;
     im[i] = value.im;
 }
 
+/* g of the wave that carries a mode: the direct one, but of the free sine its alias. */
+static CzComplex carrier(const CzTrackGroup *group, int i) {
+    return cz_complex_square_size(group->direct[i]) > 0.0 ? group->direct[i] : group->alias[i];
+}
+
 static bool is_mode(const CzTrackGroup *group, int i) {
-    return cz_complex_square_size(group->direct[i]) > 0.0;
+    return cz_complex_square_size(carrier(group, i)) > 0.0;
 }
 
-static CzTrackRows rows_of(const CzTrackGroup *group, double step) {
-    CzTrackRows rows;
-    memset(&rows, 0, sizeof rows);
-    for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
-        if (!is_mode(group, i))
-            continue;
-        const CzComplex lambda = group->lambda[i];
-        const CzComplex flight = cz_complex_exponential(cz_complex_scaled(step, lambda));
-        const CzComplex kick = cz_track_kick(lambda, step);
-        const CzComplex back = cz_complex_exponential(cz_complex_scaled(-0.5 * step, lambda));
-        const CzComplex direct = group->direct[i], alias = group->alias[i];
-        put(flight, i, rows.flight_re, rows.flight_im);
-        put(cz_complex_product(kick, direct), i, rows.kick_re, rows.kick_im);
-        put(cz_complex_product(kick, alias), i, rows.alias_kick_re, rows.alias_kick_im);
-        put(direct, i, rows.now_re, rows.now_im);
-        put(alias, i, rows.alias_now_re, rows.alias_now_im);
-        put(cz_complex_product(back, direct), i, rows.past_re, rows.past_im);
-        put(cz_complex_product(back, alias), i, rows.alias_past_re, rows.alias_past_im);
+/* The group that holds the sine of wave n_seat / 2, in the last place of the last vector; NULL
+ * where it is cut off. */
+static const CzTrackGroup *free_sine(const CzTrackModes *modes) {
+    for (int k = 0; k < modes->n_group; ++k) {
+        const CzTrackGroup *group = &modes->group[k];
+        if (group->copy == 1 && group->vector == modes->n_vector - 1 &&
+            is_mode(group, CZ_TRACK_WIDTH - 1))
+            return group;
     }
-    return rows;
+    return NULL;
 }
 
-static void add_amplitudes(const CzTrackBlock *block, const CzTrackGroup *group, int i, double step,
-                           CzTrackAmplitudes *amplitudes) {
+/* The groups of the cosine copy, which come first, and the free sine as an alias in the first group
+ * of the last vector with a place for it, or in one more. Returns their number; `row`, unless NULL,
+ * has space for one more than the cosine copy. */
+static int gather_rows(const CzTrackModes *modes, CzTrackGroup *row) {
+    const int last = CZ_TRACK_WIDTH - 1;
+    const CzTrackGroup *free_wave = free_sine(modes);
+    bool is_placed = free_wave == NULL;
+    int n = 0;
+    for (int k = 0; k < modes->n_group && modes->group[k].copy == 0; ++k) {
+        const CzTrackGroup *group = &modes->group[k];
+        const bool takes =
+            !is_placed && group->vector == modes->n_vector - 1 && !is_mode(group, last);
+        if (row != NULL)
+            row[n] = *group;
+        if (row != NULL && takes) {
+            row[n].lambda[last] = free_wave->lambda[last];
+            row[n].alias[last] = free_wave->direct[last];
+        }
+        is_placed = is_placed || takes;
+        ++n;
+    }
+    if (!is_placed && row != NULL) {
+        row[n] = (CzTrackGroup){.vector = modes->n_vector - 1};
+        row[n].lambda[last] = free_wave->lambda[last];
+        row[n].alias[last] = free_wave->direct[last];
+    }
+    return is_placed ? n : n + 1;
+}
+
+/* Turn of a mode from its state to half a step ago. */
+static CzComplex back_of(CzComplex lambda, double step) {
+    return cz_complex_exponential(cz_complex_scaled(-0.5 * step, lambda));
+}
+
+/* Y per deflections now and half a step ago, z and z' = Re(back Y): with back = b + i c,
+ * Y = z + i (b z - z') / c. A mode without oscillation has Y = z. */
+typedef struct Recovery {
+    CzComplex now, past;
+} Recovery;
+
+static Recovery recovery_of(CzComplex back) {
+    if (back.im == 0.0)
+        return (Recovery){.now = {1.0, 0.0}};
+    return (Recovery){.now = {1.0, back.re / back.im}, .past = {0.0, -1.0 / back.im}};
+}
+
+static void add_row(const CzTrackGroup *group, int i, double step, CzTrackRows *rows) {
+    const CzComplex lambda = group->lambda[i], own = carrier(group, i);
+    const CzComplex half = cz_complex_exponential(cz_complex_scaled(0.5 * step, lambda));
+    const CzComplex back = back_of(lambda, step);
+    const bool turns = lambda.im != 0.0;
+    rows->twice[i] = turns ? 2.0 * half.re : half.re;
+    rows->square[i] = turns ? cz_complex_square_size(half) : 0.0;
+
+    const CzComplex kick = cz_complex_product(cz_track_kick(lambda, step), own);
+    const CzComplex direct = cz_complex_product(kick, group->direct[i]);
+    const CzComplex alias = cz_complex_product(kick, group->alias[i]);
+    rows->kick[i] = direct.re;
+    rows->past_kick[i] = cz_complex_product(back, direct).re;
+    rows->alias_kick[i] = alias.re;
+    rows->alias_past_kick[i] = cz_complex_product(back, alias).re;
+
+    const Recovery of = recovery_of(back);
+    const CzComplex ratio = cz_complex_ratio(group->alias[i], own);
+    rows->alias[i] = cz_complex_product(ratio, of.now).re;
+    rows->alias_past[i] = cz_complex_product(ratio, of.past).re;
+}
+
+static void add_state(const CzTrackGroup *group, int i, double step, CzTrackAmplitudes *of) {
+    CzComplex now = {1.0, 0.0}, past = {0.0, 1.0};
+    if (step > 0.0) {
+        const CzComplex back = back_of(group->lambda[i], step);
+        const Recovery whole = recovery_of(back);
+        const CzComplex per_g = cz_complex_ratio(back, carrier(group, i));
+        now = cz_complex_product(per_g, whole.now);
+        past = cz_complex_product(per_g, whole.past);
+    }
+    put(now, i, of->now_re, of->now_im);
+    put(past, i, of->past_re, of->past_im);
+}
+
+static void add_parts(const CzTrackBlock *block, const CzTrackGroup *group, int i,
+                      CzTrackAmplitudes *amplitudes) {
     const CzSeats *seats = block->seats;
     const CzComplex lambda = group->lambda[i], pad = group->pad[i];
     CzTrackRow *re = amplitudes->part_re, *im = amplitudes->part_im;
-    put(lambda, i, amplitudes->lambda_re, amplitudes->lambda_im);
-    put(cz_complex_exponential(cz_complex_scaled(-0.5 * step, lambda)), i, amplitudes->back_re,
-        amplitudes->back_im);
-    put(group->direct[i], i, re[CZ_RAIL_WAVE], im[CZ_RAIL_WAVE]);
+    put(carrier(group, i), i, re[CZ_RAIL_WAVE], im[CZ_RAIL_WAVE]);
     if (cz_complex_square_size(pad) == 0.0)
         return;
     for (int w = 1; w < block->n_wave; ++w)
@@ -59,140 +132,203 @@ static void add_amplitudes(const CzTrackBlock *block, const CzTrackGroup *group,
     put(cz_complex_product(below.ballast, pad), i, re[CZ_BALLAST], im[CZ_BALLAST]);
 }
 
-/* Blocks and their modes' amplitudes; false when there is no memory. */
-static bool prepare_energy(CzTrackMotion *track, CzArena *arena) {
+static void add_amplitudes(const CzTrackMotion *track, const CzTrackGroup *group, int i,
+                           CzTrackAmplitudes *amplitudes) {
+    put(group->lambda[i], i, amplitudes->lambda_re, amplitudes->lambda_im);
+    put(group->direct[i], i, amplitudes->direct_re, amplitudes->direct_im);
+    put(group->alias[i], i, amplitudes->alias_re, amplitudes->alias_im);
+    add_state(group, i, track->step, amplitudes);
+    add_parts(&track->block[group->vector * CZ_TRACK_WIDTH + i], group, i, amplitudes);
+}
+
+/* Numbers of all modes; the blocks are there. False when there is no memory. */
+static bool fill_rows(CzTrackMotion *track, CzArena *arena) {
     const CzTrackModes *modes = track->modes;
-    const size_t n_block = (size_t)modes->n_seat / 2 + 1;
-    CzTrackBlock *block = cz_arena_allocate(arena, n_block, sizeof *block);
-    CzTrackAmplitudes *amplitudes =
-        cz_arena_allocate(arena, (size_t)modes->n_group, sizeof *amplitudes);
-    if (block == NULL || amplitudes == NULL)
+    const size_t n_row = (size_t)gather_rows(modes, NULL);
+    CzTrackGroup *group = cz_arena_allocate(arena, n_row, sizeof *group);
+    CzTrackRows *rows = cz_arena_allocate(arena, n_row, sizeof *rows);
+    CzTrackAmplitudes *amplitudes = cz_arena_allocate(arena, n_row, sizeof *amplitudes);
+    CzTrackSpan *span = cz_arena_allocate(arena, (size_t)modes->n_vector, sizeof *span);
+    if (arena->out_of_memory)
         return false;
-    for (size_t j = 0; j < n_block; ++j)
-        block[j] = cz_track_block(&modes->seats, modes->n_seat, (int)j);
-    for (int k = 0; k < modes->n_group; ++k)
+    track->n_row = gather_rows(modes, group);
+    for (int k = 0; k < track->n_row; ++k) {
+        CzTrackSpan *own = &span[group[k].vector];
+        own->first = own->end == 0 ? k : own->first;
+        own->end = k + 1;
         for (int i = 0; i < CZ_TRACK_WIDTH; ++i)
-            if (is_mode(&modes->group[k], i))
-                add_amplitudes(&block[modes->group[k].vector * CZ_TRACK_WIDTH + i],
-                               &modes->group[k], i, track->step, &amplitudes[k]);
-    track->block = block;
+            if (is_mode(&group[k], i)) {
+                add_row(&group[k], i, track->step, &rows[k]);
+                add_amplitudes(track, &group[k], i, &amplitudes[k]);
+            }
+    }
+    track->rows = rows;
     track->amplitudes = amplitudes;
+    track->span = span;
     return true;
 }
 
-static void fill_spans(const CzTrackModes *modes, CzTrackSpan *span) {
-    for (int k = 0; k < modes->n_group; ++k) {
-        const CzTrackGroup *group = &modes->group[k];
-        CzTrackSpan *own = &span[group->copy * modes->n_vector + group->vector];
-        own->first = own->end == 0 ? k : own->first;
-        own->end = k + 1;
-    }
-}
-
-static void fill_wavenumbers(const CzTrackModes *modes, CzTrackRow *wavenumber) {
+static void fill_waves(const CzTrackModes *modes, CzTrackRow *wavenumber, CzTrackRow *inner) {
     for (int v = 0; v < modes->n_vector; ++v)
         for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
             const int j = v * CZ_TRACK_WIDTH + i;
             wavenumber[2 * v][i] = 2.0 * CZ_PI * j / modes->length;
             wavenumber[2 * v + 1][i] = 2.0 * CZ_PI * (j - modes->n_seat) / modes->length;
+            inner[v][i] = 2 * j == modes->n_seat ? 0.0 : 1.0;
         }
 }
 
 CzTrackMotion *cz_track_motion_create(const CzTrackModes *modes, double step, size_t n_under,
                                       CzArena *arena) {
+    const size_t n_block = (size_t)modes->n_seat / 2 + 1, n_vector = (size_t)modes->n_vector;
     CzTrackMotion *track = cz_arena_allocate(arena, 1, sizeof *track);
-    CzTrackRows *rows = cz_arena_allocate(arena, (size_t)modes->n_group, sizeof *rows);
-    CzTrackSpan *span = cz_arena_allocate(arena, 2 * (size_t)modes->n_vector, sizeof *span);
-    CzTrackRow *wavenumber =
-        cz_arena_allocate(arena, 2 * (size_t)modes->n_vector, sizeof *wavenumber);
+    CzTrackRow *wavenumber = cz_arena_allocate(arena, 2 * n_vector, sizeof *wavenumber);
+    CzTrackRow *inner = cz_arena_allocate(arena, n_vector, sizeof *inner);
+    CzTrackBlock *block = cz_arena_allocate(arena, n_block, sizeof *block);
     CzTrackUnder *under = cz_arena_allocate(arena, n_under, sizeof *under);
-    if (track == NULL || rows == NULL || span == NULL || wavenumber == NULL || under == NULL)
+    if (arena->out_of_memory)
         return NULL;
-    for (int k = 0; k < modes->n_group; ++k)
-        rows[k] = rows_of(&modes->group[k], step);
-    fill_spans(modes, span);
-    fill_wavenumbers(modes, wavenumber);
+    for (size_t j = 0; j < n_block; ++j)
+        block[j] = cz_track_block(&modes->seats, modes->n_seat, (int)j);
+    fill_waves(modes, wavenumber, inner);
+    const int last = modes->n_vector - 1;
     *track = (CzTrackMotion){.modes = modes,
                              .step = step,
                              .per_length = 1.0 / modes->length,
                              .per_spacing = 1.0 / modes->seats.spacing,
-                             .rows = rows,
-                             .span = span,
+                             .first_alias = modes->first_alias < last ? modes->first_alias : last,
                              .wavenumber = (const CzTrackRow *)wavenumber,
+                             .inner = (const CzTrackRow *)inner,
+                             .block = block,
                              .flexibility = cz_track_flexibility(modes, step),
                              .n_under = n_under,
                              .under = under};
-    return prepare_energy(track, arena) ? track : NULL;
+    return fill_rows(track, arena) ? track : NULL;
 }
 
 /* ---- one car ---- */
 
-/* Load of the modes of a group: sum of g(x) P over the wheels, at the places of the shapes. */
-static void load_group(const CzTrackMotion *track, const CzTrackUnder *under, int k,
-                       double *restrict re, double *restrict im) {
-    const CzTrackGroup *group = &track->modes->group[k];
-    const CzTrackRows *restrict rows = &track->rows[k];
+/* Load of one copy of a row of modes: sum of g(x) P over the wheels, at the places of the shapes.
+ */
+static void load_row(const CzTrackMotion *track, const CzTrackShape *load, int row, int copy,
+                     double *restrict re, double *restrict im) {
+    const CzTrackAmplitudes *restrict of = &track->amplitudes[row];
+    const double *restrict direct = load->of[copy], *restrict alias =
+                                                        load->of[CZ_ALIAS_COSINE + copy];
     CZ_WAVES(i) {
-        re[i] = im[i] = 0.0;
-    }
-    for (int wheel = 0; wheel < 4; ++wheel) {
-        const CzTrackRow *shape =
-            under->shape + 4 * (wheel * track->modes->n_vector + group->vector);
-        const double *restrict direct = shape[group->copy], *restrict alias =
-                                                                shape[2 + group->copy];
-        const double force = under->force[wheel];
-        CZ_WAVES(i) {
-            re[i] += force * (direct[i] * rows->now_re[i] + alias[i] * rows->alias_now_re[i]);
-            im[i] += force * (direct[i] * rows->now_im[i] + alias[i] * rows->alias_now_im[i]);
-        }
+        re[i] = direct[i] * of->direct_re[i] + alias[i] * of->alias_re[i];
+        im[i] = direct[i] * of->direct_im[i] + alias[i] * of->alias_im[i];
     }
 }
 
-/* States of the modes under constant forces of the wheels. */
-static void rest_under(const CzTrackMotion *track, const CzTrackUnder *under) {
-    const CzTrackModes *modes = track->modes;
-    for (int k = 0; k < modes->n_group; ++k) {
-        CzTrackRow re, im;
-        load_group(track, under, k, re, im);
-        for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
-            CzComplex y = {0.0, 0.0};
-            if (is_mode(&modes->group[k], i))
-                y = cz_complex_product(
-                    (CzComplex){re[i], im[i]},
-                    cz_track_constant_answer(modes->group[k].lambda[i], track->step));
-            put(y, i, under->state[2 * k], under->state[2 * k + 1]);
-        }
+/* Adds the waves of one copy of a row of modes with the complex amplitudes y. */
+static void add_waves(const CzTrackAmplitudes *of, int copy, const double *restrict re,
+                      const double *restrict im, CzTrackShape *wave) {
+    double *restrict direct = wave->of[copy], *restrict alias = wave->of[CZ_ALIAS_COSINE + copy];
+    CZ_WAVES(i) {
+        direct[i] += of->direct_re[i] * re[i] - of->direct_im[i] * im[i];
+        alias[i] += of->alias_re[i] * re[i] - of->alias_im[i] * im[i];
     }
+}
+
+/* Amplitudes y half a step ago; now, on a track for a step of 0. */
+static void past_of(const CzTrackAmplitudes *restrict of, const CzTrackState *state, int copy,
+                    double *restrict re, double *restrict im) {
+    const double *restrict now = state->now[copy], *restrict past = state->past[copy];
+    CZ_WAVES(i) {
+        re[i] = of->now_re[i] * now[i] + of->past_re[i] * past[i];
+        im[i] = of->now_im[i] * now[i] + of->past_im[i] * past[i];
+    }
+}
+
+/* State of a mode with the amplitude y. */
+static void put_state(const CzTrackMotion *track, int row, int copy, int i, CzComplex y,
+                      CzTrackState *state) {
+    const CzTrackAmplitudes *of = &track->amplitudes[row];
+    CzComplex g = {of->direct_re[i], of->direct_im[i]};
+    if (track->step > 0.0) {
+        if (cz_complex_square_size(g) == 0.0)
+            g = (CzComplex){of->alias_re[i], of->alias_im[i]};
+        const CzComplex lambda = {of->lambda_re[i], of->lambda_im[i]};
+        const CzComplex now = cz_complex_product(g, y);
+        y = (CzComplex){now.re, cz_complex_product(back_of(lambda, track->step), now).re};
+    }
+    state->now[copy][i] = y.re;
+    state->past[copy][i] = y.im;
+}
+
+/* Lays one copy of a row of modes at rest under constant loads of its waves. */
+static void rest_row(const CzTrackMotion *track, const CzTrackUnder *under,
+                     const CzTrackShape *load, int row, int copy, CzTrackWave *wave) {
+    const CzTrackAmplitudes *of = &track->amplitudes[row];
+    CzTrackRow re, im, past_re, past_im;
+    load_row(track, load, row, copy, re, im);
+    for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
+        const CzComplex lambda = {of->lambda_re[i], of->lambda_im[i]};
+        if (cz_complex_square_size(lambda) == 0.0)
+            continue; /* no mode, no load */
+        const CzComplex y = cz_complex_product((CzComplex){re[i], im[i]},
+                                               cz_track_constant_answer(lambda, track->step));
+        put_state(track, row, copy, i, y, &under->state[row]);
+        put(y, i, re, im);
+    }
+    past_of(of, &under->state[row], copy, past_re, past_im);
+    add_waves(of, copy, re, im, &wave->now);
+    add_waves(of, copy, past_re, past_im, &wave->past);
+}
+
+static bool is_aliased(const CzTrackMotion *track, int v) {
+    return v >= track->first_alias;
+}
+
+/* The modes at rest under constant forces of the wheels. */
+static void rest_under(const CzTrackMotion *track, const CzTrackUnder *under) {
+    for (int v = 0; v < track->modes->n_vector; ++v) {
+        CzTrackShape load = {0};
+        cz_track_load(&under->shape[4 * v], under->force, is_aliased(track, v), &load);
+        memset(&under->wave[v], 0, sizeof under->wave[v]);
+        for (int row = track->span[v].first; row < track->span[v].end; ++row)
+            for (int copy = 0; copy < 2; ++copy)
+                rest_row(track, under, &load, row, copy, &under->wave[v]);
+    }
+}
+
+/* Turns of the wheels of one car, the first of eight. */
+static void turn_one(const CzTrackMotion *track, const double place[4], CzTrackTurns *turns) {
+    CzTrackRow of[4] = {{0.0}};
+    for (int wheel = 0; wheel < 4; ++wheel)
+        of[wheel][0] = place[wheel];
+    cz_track_turn(track, (const CzTrackRow *)of, turns);
 }
 
 bool cz_track_lay(CzTrackMotion *track, size_t index, const double place[4], const double load[4],
                   CzArena *arena) {
-    const CzTrackModes *modes = track->modes;
     CzTrackUnder *under = &track->under[index];
-    const size_t n_vector = (size_t)modes->n_vector;
+    const size_t n_row = (size_t)track->n_row, n_vector = (size_t)track->modes->n_vector;
     if (under->state == NULL) {
-        under->state = cz_arena_allocate(arena, 2 * (size_t)modes->n_group, sizeof *under->state);
-        under->wave = cz_arena_allocate(arena, 8 * n_vector, sizeof *under->wave);
-        under->shape = cz_arena_allocate(arena, 16 * n_vector, sizeof *under->shape);
+        under->state = cz_arena_allocate(arena, n_row, sizeof *under->state);
+        under->wave = cz_arena_allocate(arena, n_vector, sizeof *under->wave);
+        under->shape = cz_arena_allocate(arena, 4 * n_vector, sizeof *under->shape);
     }
     if (under->state == NULL || under->wave == NULL || under->shape == NULL)
         return false;
-    CzComplex seat[4];
-    cz_track_shapes(track, place, under->shape, seat);
-    for (int wheel = 0; wheel < 4; ++wheel)
+    CzTrackTurns turns;
+    turn_one(track, place, &turns);
+    for (int wheel = 0; wheel < 4; ++wheel) {
+        cz_track_move_wheel(track, under, &turns, 0, wheel);
         under->force[wheel] = -load[wheel];
+    }
     rest_under(track, under);
-    cz_track_read(track, under);
     return true;
 }
 
 void cz_track_deflection(const CzTrackMotion *track, size_t index, const double place[4],
                          double deflection[4], double flexibility[4]) {
-    CzComplex seat[4];
-    cz_track_shapes(track, place, track->under[index].shape, seat);
+    CzTrackTurns turns;
+    turn_one(track, place, &turns);
     for (int wheel = 0; wheel < 4; ++wheel) {
-        deflection[wheel] = cz_track_at(track, &track->under[index], wheel).z;
-        flexibility[wheel] = cz_track_flexibility_at(&track->flexibility, seat[wheel].re);
+        deflection[wheel] = cz_track_move_wheel(track, &track->under[index], &turns, 0, wheel).z;
+        flexibility[wheel] = cz_track_flexibility_at(&track->flexibility, turns.seat_re[wheel][0]);
     }
 }
 
@@ -203,16 +339,15 @@ typedef struct Parts {
     CzTrackRow value[CZ_TRACK_PARTS], rate[CZ_TRACK_PARTS];
 } Parts;
 
-/* Adds the modes of a group half a step ago, at the end of the last force: their state then, and
- * its rate with that force still acting. */
-static void add_group(const CzTrackMotion *track, const CzTrackUnder *under, int k, Parts *parts) {
-    const CzTrackAmplitudes *restrict of = &track->amplitudes[k];
-    const double *restrict re = under->state[2 * k], *restrict im = under->state[2 * k + 1];
+/* Adds one copy of a row of modes half a step ago, at the end of the last force: its amplitudes
+ * then, and their rates with that force still acting. */
+static void add_copy(const CzTrackMotion *track, const CzTrackUnder *under,
+                     const CzTrackShape *load, int row, int copy, Parts *parts) {
+    const CzTrackAmplitudes *restrict of = &track->amplitudes[row];
     CzTrackRow y_re, y_im, rate_re, rate_im, load_re, load_im;
-    load_group(track, under, k, load_re, load_im);
+    load_row(track, load, row, copy, load_re, load_im);
+    past_of(of, &under->state[row], copy, y_re, y_im);
     CZ_WAVES(i) {
-        y_re[i] = of->back_re[i] * re[i] - of->back_im[i] * im[i];
-        y_im[i] = of->back_re[i] * im[i] + of->back_im[i] * re[i];
         rate_re[i] = of->lambda_re[i] * y_re[i] - of->lambda_im[i] * y_im[i] + load_re[i];
         rate_im[i] = of->lambda_re[i] * y_im[i] + of->lambda_im[i] * y_re[i] + load_im[i];
     }
@@ -253,15 +388,19 @@ static void parts_energy(const CzTrackBlock *block, const Parts *parts, int i, d
 }
 
 static void add_up(const CzTrackMotion *track, size_t index, double *energy, double *loss) {
-    const CzTrackModes *modes = track->modes;
-    for (int row = 0; row < 2 * modes->n_vector; ++row) {
-        const int first = row % modes->n_vector * CZ_TRACK_WIDTH;
-        Parts parts;
-        memset(&parts, 0, sizeof parts);
-        for (int k = track->span[row].first; k < track->span[row].end; ++k)
-            add_group(track, &track->under[index], k, &parts);
-        for (int i = 0; i < CZ_TRACK_WIDTH && 2 * (first + i) <= modes->n_seat; ++i)
-            parts_energy(&track->block[first + i], &parts, i, energy, loss);
+    const CzTrackUnder *under = &track->under[index];
+    for (int v = 0; v < track->modes->n_vector; ++v) {
+        const int first = v * CZ_TRACK_WIDTH;
+        CzTrackShape load = {0};
+        cz_track_load(&under->shape[4 * v], under->force, is_aliased(track, v), &load);
+        for (int copy = 0; copy < 2; ++copy) {
+            Parts parts;
+            memset(&parts, 0, sizeof parts);
+            for (int row = track->span[v].first; row < track->span[v].end; ++row)
+                add_copy(track, under, &load, row, copy, &parts);
+            for (int i = 0; i < CZ_TRACK_WIDTH && 2 * (first + i) <= track->modes->n_seat; ++i)
+                parts_energy(&track->block[first + i], &parts, i, energy, loss);
+        }
     }
 }
 
@@ -280,71 +419,62 @@ double cz_track_loss(const CzTrackMotion *track, size_t index) {
 /* ---- for a solver of ordinary differential equations ---- */
 
 size_t cz_track_n_state(const CzTrackModes *modes) {
-    return (size_t)modes->n_group * 2 * CZ_TRACK_WIDTH;
+    return (size_t)gather_rows(modes, NULL) * sizeof(CzTrackState) / sizeof(double);
 }
 
 void cz_track_get_state(const CzTrackMotion *track, size_t index, double *state) {
-    memcpy(state, track->under[index].state, cz_track_n_state(track->modes) * sizeof *state);
+    memcpy(state, track->under[index].state, (size_t)track->n_row * sizeof(CzTrackState));
 }
 
 void cz_track_set_state(CzTrackMotion *track, size_t index, const double *state) {
-    memcpy(track->under[index].state, state, cz_track_n_state(track->modes) * sizeof *state);
-    cz_track_read(track, &track->under[index]);
+    const CzTrackUnder *under = &track->under[index];
+    memcpy(under->state, state, (size_t)track->n_row * sizeof(CzTrackState));
+    for (int v = 0; v < track->modes->n_vector; ++v) {
+        CzTrackShape *wave = &under->wave[v].now;
+        memset(wave, 0, sizeof *wave);
+        for (int row = track->span[v].first; row < track->span[v].end; ++row)
+            for (int copy = 0; copy < 2; ++copy)
+                add_waves(&track->amplitudes[row], copy, under->state[row].now[copy],
+                          under->state[row].past[copy], wave);
+    }
 }
 
-/* Rates of one group of modes under the load of its row of waves; the rate of the rail is added to
- * the waves. */
-static void rate_of_group(const CzTrackGroup *group, const CzTrackRows *rows, bool aliased,
-                          const double *restrict re, const double *restrict im,
-                          double *restrict rate_re, double *restrict rate_im, CzTrackWaves *waves) {
+/* Rates of one copy of a row of modes under the load of its waves; adds the rates of the waves. */
+static void rate_copy(const CzTrackMotion *track, const CzTrackShape *load, int row, int copy,
+                      const CzTrackState *state, CzTrackState *rate, CzTrackShape *rising) {
+    const CzTrackAmplitudes *restrict of = &track->amplitudes[row];
+    const double *restrict re = state->now[copy], *restrict im = state->past[copy];
+    double *restrict rate_re = rate->now[copy], *restrict rate_im = rate->past[copy];
+    CzTrackRow load_re, load_im;
+    load_row(track, load, row, copy, load_re, load_im);
     CZ_WAVES(i) {
-        const CzComplex lambda = group->lambda[i];
-        rate_re[i] = lambda.re * re[i] - lambda.im * im[i] + rows->now_re[i] * waves->load[i];
-        rate_im[i] = lambda.re * im[i] + lambda.im * re[i] + rows->now_im[i] * waves->load[i];
+        rate_re[i] = of->lambda_re[i] * re[i] - of->lambda_im[i] * im[i] + load_re[i];
+        rate_im[i] = of->lambda_re[i] * im[i] + of->lambda_im[i] * re[i] + load_im[i];
     }
-    if (aliased)
-        CZ_WAVES(i) {
-            rate_re[i] += rows->alias_now_re[i] * waves->alias_load[i];
-            rate_im[i] += rows->alias_now_im[i] * waves->alias_load[i];
-        }
-    cz_track_add_displacement(rows, rate_re, rate_im, aliased, waves);
-}
-
-/* Rate of the rail at the wheels by a row of waves. */
-static void add_rail_rate(const CzTrackMotion *track, const CzTrackUnder *under, int copy, int v,
-                          bool aliased, const CzTrackWaves *waves, double rail_rate[4]) {
-    for (int wheel = 0; wheel < 4; ++wheel) {
-        const CzTrackRow *shape = under->shape + 4 * (wheel * track->modes->n_vector + v);
-        CzTrackRow moved;
-        CZ_WAVES(i) {
-            moved[i] = shape[copy][i] * waves->direct[i];
-        }
-        if (aliased)
-            CZ_WAVES(i) {
-                moved[i] += shape[2 + copy][i] * waves->alias[i];
-            }
-        rail_rate[wheel] += cz_track_sum(moved);
-    }
+    add_waves(of, copy, rate_re, rate_im, rising);
 }
 
 void cz_track_rate(CzTrackMotion *track, size_t index, const double force[4], double *rate,
                    double rail_rate[4]) {
-    const CzTrackModes *modes = track->modes;
     CzTrackUnder *under = &track->under[index];
     memcpy(under->force, force, sizeof under->force);
     memset(rail_rate, 0, 4 * sizeof *rail_rate);
-    for (int copy = 0; copy < 2; ++copy)
-        for (int v = 0; v < modes->n_vector; ++v) {
-            const CzTrackSpan span = track->span[copy * modes->n_vector + v];
-            const bool aliased = v >= modes->first_alias;
-            CzTrackWaves waves;
-            cz_track_no_waves(&waves);
-            cz_track_load(track, under, copy, v, force, aliased, &waves);
-            for (int k = span.first; k < span.end; ++k) {
-                double *own = rate + 2 * k * CZ_TRACK_WIDTH;
-                rate_of_group(&modes->group[k], &track->rows[k], aliased, under->state[2 * k],
-                              under->state[2 * k + 1], own, own + CZ_TRACK_WIDTH, &waves);
-            }
-            add_rail_rate(track, under, copy, v, aliased, &waves, rail_rate);
+    for (int v = 0; v < track->modes->n_vector; ++v) {
+        CzTrackShape load = {0}, rising = {0};
+        cz_track_load(&under->shape[4 * v], force, is_aliased(track, v), &load);
+        for (int row = track->span[v].first; row < track->span[v].end; ++row) {
+            CzTrackState of_row;
+            for (int copy = 0; copy < 2; ++copy)
+                rate_copy(track, &load, row, copy, &under->state[row], &of_row, &rising);
+            memcpy((char *)rate + (size_t)row * sizeof of_row, &of_row, sizeof of_row);
         }
+        for (int wheel = 0; wheel < 4; ++wheel)
+            for (int k = 0; k < (is_aliased(track, v) ? CZ_N_SHAPE : CZ_ALIAS_COSINE); ++k) {
+                CzTrackRow moved;
+                CZ_WAVES(i) {
+                    moved[i] = under->shape[4 * v + wheel].of[k][i] * rising.of[k][i];
+                }
+                rail_rate[wheel] += cz_track_sum(moved);
+            }
+    }
 }

@@ -3,11 +3,19 @@
  * copy; every loop is over eight neighbouring waves, and sums are taken over the eight in a fixed
  * order, so that all copies give the same bits.
  *
- * A step is   y <- E (y + g h P)    E = exp(lambda h)
+ * A mode has the deflection Re Y of its rail wave, and in free motion Y turns by E = exp(lambda h)
+ * in a step. Its deflections z at half steps follow each other as
  *
- * with the forces P of the wheels as kicks: together with the two-step scheme of the vehicles,
- * which is a kick and a free flight too, it gains and loses no energy. The modes are read before
- * the kick.
+ *   z(t + h/2) = 2 Re(E^(1/2)) z(t) - |E| z(t - h/2)
+ *
+ * so that two of them, now and half a step before, are the state of the mode; their sums over the
+ * modes are the deflections of the rail at both times. The forces P of the wheels act as kicks of Y
+ * at the time of the state: together with the two-step scheme of the vehicles, which is a kick and
+ * a free flight too, a step gains and loses no energy. The modes are read before the kick.
+ *
+ * Cosine and sine copy of a wave have the same modes, so that they share their numbers. Two edges
+ * differ: wave 0 has no sine, and the sine of wave n_seat / 2, with its nodes at the seats, is free
+ * from them. That sine has the place of its alias, which is the same wave.
  */
 #ifndef CZ_DYNAMICS_TRACK_MOTION_H
 #define CZ_DYNAMICS_TRACK_MOTION_H
@@ -21,52 +29,70 @@
 
 typedef double CzTrackRow[CZ_TRACK_WIDTH];
 
-/* Numbers of a group of modes for one step size. */
+/* Numbers of a row of modes, of eight neighbouring waves, for one step size. */
 typedef struct CzTrackRows {
-    _Alignas(64) CzTrackRow flight_re, flight_im; /* exp(lambda h) */
-    CzTrackRow kick_re, kick_im;                  /* state per force on the direct wave */
-    CzTrackRow alias_kick_re, alias_kick_im;      /* on the alias wave */
-    CzTrackRow now_re, now_im;                    /* displacement of the direct wave per state */
-    CzTrackRow alias_now_re, alias_now_im;        /* of the alias wave */
-    CzTrackRow past_re, past_im; /* the same half a step ago, without forces since */
-    CzTrackRow alias_past_re, alias_past_im;
+    _Alignas(64) CzTrackRow twice, square; /* 2 Re(E^(1/2)) and |E| */
+    CzTrackRow kick, past_kick;            /* change of the state per force on the direct wave */
+    CzTrackRow alias_kick, alias_past_kick;
+    CzTrackRow alias, alias_past; /* deflection of the alias wave per state */
 } CzTrackRows;
 
 /* Parts of a block: a pad, sleeper, ballast block, and the rail's waves. */
 enum { CZ_PAD_FORCE, CZ_PAD_STRETCH, CZ_SLEEPER, CZ_BALLAST, CZ_RAIL_WAVE };
 enum { CZ_TRACK_PARTS = CZ_RAIL_WAVE + CZ_BLOCK_WAVES };
 
-/* Amplitudes at the crest of the parts of a block, per state of the modes of a group.
- */
+/* A row of modes in continuous time, by its complex amplitudes y: Y = g y for the direct wave. */
 typedef struct CzTrackAmplitudes {
     _Alignas(64) CzTrackRow lambda_re, lambda_im;
-    CzTrackRow back_re, back_im; /* exp(-lambda h / 2): from the state to half a step ago */
-    CzTrackRow part_re[CZ_TRACK_PARTS], part_im[CZ_TRACK_PARTS];
+    CzTrackRow direct_re, direct_im, alias_re, alias_im;         /* g of the waves */
+    CzTrackRow now_re, now_im, past_re, past_im;                 /* y half a step ago per state */
+    CzTrackRow part_re[CZ_TRACK_PARTS], part_im[CZ_TRACK_PARTS]; /* parts at the crest per y */
 } CzTrackAmplitudes;
 
-/* Groups of one copy and vector: first ... end - 1. */
+/* Rows of modes of one vector of waves: first ... end - 1. */
 typedef struct CzTrackSpan {
     int first, end;
 } CzTrackSpan;
 
+/* Shapes of a vector of waves, or what belongs to them. Alias rows are 0 where none has an alias.
+ */
+enum { CZ_COSINE, CZ_SINE, CZ_ALIAS_COSINE, CZ_ALIAS_SINE, CZ_N_SHAPE };
+typedef struct CzTrackShape {
+    _Alignas(64) CzTrackRow of[CZ_N_SHAPE];
+} CzTrackShape;
+
+/* State of a row of modes, of its cosine and its sine copy: deflection of the direct wave now and
+ * half a step ago, without forces since [m]. On a track for a step of 0, real and imaginary part
+ * of y. */
+typedef struct CzTrackState {
+    _Alignas(64) CzTrackRow now[2], past[2];
+} CzTrackState;
+
+/* Amplitudes of a vector of waves, now and half a step ago [m]. */
+typedef struct CzTrackWave {
+    CzTrackShape now, past;
+} CzTrackWave;
+
 /* Track under one car. */
 typedef struct CzTrackUnder {
-    CzTrackRow *state; /* real and imaginary parts in turn (2 n_group); NULL without wheels */
-    CzTrackRow
-        *wave; /* of the state: direct now and half a step ago, alias likewise (2 n_vector x 4) */
-    CzTrackRow *shape; /* of the last look: cosine, sine, alias's (4 wheels x n_vector x 4) */
-    double force[4];   /* of the last step, upwards on the rail [N] */
+    CzTrackState *state; /* (n_row); NULL without wheels */
+    CzTrackWave *wave;   /* of the state (n_vector) */
+    CzTrackShape *shape; /* of the last look (n_vector x 4 wheels) */
+    double force[4];     /* of the last step, upwards on the rail [N] */
 } CzTrackUnder;
 
 typedef struct CzTrackMotion {
     const CzTrackModes *modes;      /* borrowed */
     double step;                    /* h [s] */
     double per_length, per_spacing; /* 1 / length of the ring, 1 / spacing [1/m] */
-    const CzTrackRows *rows;        /* (n_group) */
-    const CzTrackSpan *span;        /* (2 n_vector) */
-    const CzTrackRow *wavenumber;   /* direct, alias [1/m] (2 n_vector) */
-    const CzTrackBlock *block;      /* for the energy, as are the amplitudes (n_seat / 2 + 1) */
-    const CzTrackAmplitudes *amplitudes; /* (n_group) */
+    int n_row;
+    const CzTrackRows *rows;             /* (n_row) */
+    const CzTrackAmplitudes *amplitudes; /* (n_row) */
+    const CzTrackSpan *span;             /* (n_vector) */
+    int first_alias;                     /* first vector with aliases or the free sine */
+    const CzTrackRow *inner;             /* 0 for wave n_seat / 2, else 1 (n_vector) */
+    const CzTrackRow *wavenumber;        /* direct, alias [1/m] (2 n_vector) */
+    const CzTrackBlock *block;           /* for the energy (n_seat / 2 + 1) */
     CzTrackFlexibility flexibility;      /* under a wheel, in addition to the modes */
     size_t n_under;
     CzTrackUnder *under; /* (n_under) */
@@ -74,9 +100,12 @@ typedef struct CzTrackMotion {
 
 #define CZ_WAVES(i) _Pragma("omp simd") for (int i = 0; i < CZ_TRACK_WIDTH; ++i)
 
-/* Sum over a row, in pairs. */
+/* Sum over a row, by halves. */
 static inline double cz_track_sum(const CzTrackRow row) {
-    return ((row[0] + row[4]) + (row[2] + row[6])) + ((row[1] + row[5]) + (row[3] + row[7]));
+    double four[4], two[2];
+    _Pragma("omp simd") for (int i = 0; i < 4; ++i) four[i] = row[i] + row[i + 4];
+    _Pragma("omp simd") for (int i = 0; i < 2; ++i) two[i] = four[i] + four[i + 2];
+    return two[0] + two[1];
 }
 
 /* Binary digits of 0 ... 7, as numbers, so that a whole row is selected in one register. A row
@@ -84,17 +113,51 @@ static inline double cz_track_sum(const CzTrackRow row) {
 static const _Alignas(64) CzTrackRow cz_digit[3] = {
     {0, 1, 0, 1, 0, 1, 0, 1}, {0, 0, 1, 1, 0, 0, 1, 1}, {0, 0, 0, 0, 1, 1, 1, 1}};
 
-/* Cosine and sine of a wheel's turn about the ring, 2 pi x over its length, and of its double,
- * four- and eightfold; of its turn in the bay, 2 pi x over the spacing. */
+/* ---- shapes of the waves at the wheels ---- */
+
+/* Turns of the four wheels of eight cars about the ring, 2 pi x over its length, with the double,
+ * four- and eightfold turns, and in the bay, 2 pi x over the spacing: cosines and sines. Eight cars
+ * are turned together, because one takes as long. */
 typedef struct {
-    CzComplex ring[4], seat;
+    _Alignas(64) CzTrackRow ring_re[4][4], ring_im[4][4]; /* by wheel and power of two */
+    CzTrackRow seat_re[4], seat_im[4];                    /* by wheel */
 } CzTrackTurns;
 
-/* Rail waves at a wheel: cosine and sine of K_k x for k = j and for the alias k = j - n_seat. */
-static inline void cz_track_shape(const CzTrackMotion *track, const CzTrackTurns *turns,
-                                  CzTrackRow *shape) {
-    const CzComplex ring = turns->ring[0], square = turns->ring[1], fourth = turns->ring[2];
-    const CzComplex eighth = turns->ring[3], seat = turns->seat;
+static inline void cz_track_turn(const CzTrackMotion *track, const CzTrackRow place[4],
+                                 CzTrackTurns *turns) {
+    for (int wheel = 0; wheel < 4; ++wheel) {
+        CzTrackRow *re = turns->ring_re[wheel], *im = turns->ring_im[wheel];
+        CZ_WAVES(car) {
+            const CzComplex once = cz_turned(place[wheel][car] * track->per_length);
+            const CzComplex seat = cz_turned(place[wheel][car] * track->per_spacing);
+            const CzComplex twice = cz_complex_product(once, once);
+            const CzComplex four = cz_complex_product(twice, twice);
+            const CzComplex eight = cz_complex_product(four, four);
+            re[0][car] = once.re;
+            im[0][car] = once.im;
+            re[1][car] = twice.re;
+            im[1][car] = twice.im;
+            re[2][car] = four.re;
+            im[2][car] = four.im;
+            re[3][car] = eight.re;
+            im[3][car] = eight.im;
+            turns->seat_re[wheel][car] = seat.re;
+            turns->seat_im[wheel][car] = seat.im;
+        }
+    }
+}
+
+/* Turn of a wheel of one car. */
+static inline CzComplex cz_track_turn_of(const CzTrackTurns *turns, int car, int wheel, int power) {
+    return (CzComplex){turns->ring_re[wheel][power][car], turns->ring_im[wheel][power][car]};
+}
+
+/* Cosine and sine of K_k x at a wheel for the first eight waves k. */
+static inline void cz_track_first_waves(const CzTrackTurns *turns, int car, int wheel,
+                                        double *restrict cosine, double *restrict sine) {
+    const CzComplex ring = cz_track_turn_of(turns, car, wheel, 0);
+    const CzComplex square = cz_track_turn_of(turns, car, wheel, 1);
+    const CzComplex fourth = cz_track_turn_of(turns, car, wheel, 2);
     CZ_WAVES(i) { /* power i of the ring's turn: the product of those of its binary digits */
         const double c1 = cz_digit[0][i] > 0.0 ? ring.re : 1.0;
         const double s1 = cz_digit[0][i] > 0.0 ? ring.im : 0.0;
@@ -103,217 +166,186 @@ static inline void cz_track_shape(const CzTrackMotion *track, const CzTrackTurns
         const double c4 = cz_digit[2][i] > 0.0 ? fourth.re : 1.0;
         const double s4 = cz_digit[2][i] > 0.0 ? fourth.im : 0.0;
         const double c3 = c1 * c2 - s1 * s2, s3 = c1 * s2 + s1 * c2;
-        shape[0][i] = c3 * c4 - s3 * s4;
-        shape[1][i] = c3 * s4 + s3 * c4;
-    }
-    for (int v = 1; v < track->modes->n_vector; ++v) {
-        const double *restrict c = shape[4 * v - 4], *restrict s = shape[4 * v - 3];
-        double *restrict cosine = shape[4 * v], *restrict sine = shape[4 * v + 1];
-        CZ_WAVES(i) {
-            cosine[i] = c[i] * eighth.re - s[i] * eighth.im;
-            sine[i] = c[i] * eighth.im + s[i] * eighth.re;
-        }
-    }
-    for (int v = track->modes->first_alias; v < track->modes->n_vector; ++v) {
-        const double *restrict cosine = shape[4 * v], *restrict sine = shape[4 * v + 1];
-        double *restrict alias_cosine = shape[4 * v + 2], *restrict alias_sine = shape[4 * v + 3];
-        CZ_WAVES(i) {
-            alias_cosine[i] = cosine[i] * seat.re + sine[i] * seat.im;
-            alias_sine[i] = sine[i] * seat.re - cosine[i] * seat.im;
-        }
+        cosine[i] = c3 * c4 - s3 * s4;
+        sine[i] = c3 * s4 + s3 * c4;
     }
 }
 
-/* Rail waves at the four wheels of a car, and their turns in the bay. The turns about ring and bay
- * are computed together: four of each fill a row. */
-static inline void cz_track_shapes(const CzTrackMotion *track, const double place[4],
-                                   CzTrackRow *shape, CzComplex seat[4]) {
-    CzTrackRow turns, re[4], im[4];
-    for (int wheel = 0; wheel < 4; ++wheel) {
-        turns[wheel] = place[wheel] * track->per_length;
-        turns[4 + wheel] = place[wheel] * track->per_spacing;
-    }
-    CZ_WAVES(i) {
-        const CzComplex turned = cz_turned(turns[i]);
-        re[0][i] = turned.re;
-        im[0][i] = turned.im;
-    }
-    for (int k = 1; k < 4; ++k)
-        CZ_WAVES(i) {
-            const CzComplex half = {re[k - 1][i], im[k - 1][i]};
-            const CzComplex twice = cz_complex_product(half, half);
-            re[k][i] = twice.re;
-            im[k][i] = twice.im;
-        }
-    for (int wheel = 0; wheel < 4; ++wheel) {
-        CzTrackTurns of = {.seat = {re[0][4 + wheel], im[0][4 + wheel]}};
-        for (int k = 0; k < 4; ++k)
-            of.ring[k] = (CzComplex){re[k][wheel], im[k][wheel]};
-        cz_track_shape(track, &of, shape + 4 * wheel * track->modes->n_vector);
-        seat[wheel] = of.seat;
-    }
-}
+/* ---- from the waves to the wheels ---- */
 
-/* Load of the modes of one row of blocks on direct and alias waves, and their displacement now and
- * half a step ago. */
+/* Deflection of the modes under a wheel and its change along the track. */
 typedef struct {
-    CzTrackRow load, alias_load;
-    CzTrackRow direct, alias, direct_past, alias_past;
-} CzTrackWaves;
+    double z, slope;
+} CzTrackDeflection;
 
-/* Adds the displacement of one group of modes. */
-static inline void cz_track_add_displacement(const CzTrackRows *rows, const double *restrict re,
-                                             const double *restrict im, bool aliased,
-                                             CzTrackWaves *waves) {
+/* A wheel in a look over the waves. */
+typedef struct {
+    _Alignas(64) CzTrackRow cosine, sine; /* of eight waves */
+    CzTrackRow z, slope;                  /* sums */
+    CzComplex eighth, seat;               /* turns */
+} CzTrackWheel;
+
+static inline void cz_track_start_wheel(const CzTrackTurns *turns, int car, int wheel,
+                                        CzTrackWheel *at) {
     CZ_WAVES(i) {
-        waves->direct[i] += rows->now_re[i] * re[i] - rows->now_im[i] * im[i];
-        waves->direct_past[i] += rows->past_re[i] * re[i] - rows->past_im[i] * im[i];
-        if (aliased) {
-            waves->alias[i] += rows->alias_now_re[i] * re[i] - rows->alias_now_im[i] * im[i];
-            waves->alias_past[i] += rows->alias_past_re[i] * re[i] - rows->alias_past_im[i] * im[i];
-        }
+        at->z[i] = at->slope[i] = 0.0;
     }
+    at->eighth = cz_track_turn_of(turns, car, wheel, 3);
+    at->seat = (CzComplex){turns->seat_re[wheel][car], turns->seat_im[wheel][car]};
+    cz_track_first_waves(turns, car, wheel, at->cosine, at->sine);
 }
 
-/* Advances a group of modes by one step. */
-static inline void cz_track_flight(const CzTrackRows *rows, const CzTrackWaves *waves, bool aliased,
-                                   double *restrict re, double *restrict im) {
+/* To the next eight waves. */
+__attribute__((always_inline)) static inline void cz_track_next_waves(CzTrackWheel *at) {
     CZ_WAVES(i) {
-        double kicked_re = re[i] + rows->kick_re[i] * waves->load[i];
-        double kicked_im = im[i] + rows->kick_im[i] * waves->load[i];
-        if (aliased) {
-            kicked_re += rows->alias_kick_re[i] * waves->alias_load[i];
-            kicked_im += rows->alias_kick_im[i] * waves->alias_load[i];
-        }
-        re[i] = rows->flight_re[i] * kicked_re - rows->flight_im[i] * kicked_im;
-        im[i] = rows->flight_re[i] * kicked_im + rows->flight_im[i] * kicked_re;
+        const double c = at->cosine[i], s = at->sine[i];
+        at->cosine[i] = c * at->eighth.re - s * at->eighth.im;
+        at->sine[i] = c * at->eighth.im + s * at->eighth.re;
     }
 }
 
-/* Load of the wheels on one row of waves: copy 0 by the cosines, 1 by the sines. */
-static inline void cz_track_load(const CzTrackMotion *track, const CzTrackUnder *under, int copy,
-                                 int v, const double force[4], bool aliased, CzTrackWaves *waves) {
-    CZ_WAVES(i) {
-        waves->load[i] = 0.0;
-        waves->alias_load[i] = 0.0;
-    }
-    for (int wheel = 0; wheel < 4; ++wheel) {
-        const CzTrackRow *shape = under->shape + 4 * (wheel * track->modes->n_vector + v);
-        const double *restrict direct = shape[copy], *restrict alias = shape[2 + copy];
-        const double p = force[wheel];
-        CZ_WAVES(i) {
-            waves->load[i] += p * direct[i];
-            if (aliased)
-                waves->alias_load[i] += p * alias[i];
-        }
-    }
-}
-
-static inline void cz_track_no_waves(CzTrackWaves *waves) {
-    CZ_WAVES(i) {
-        waves->direct[i] = waves->direct_past[i] = 0.0;
-        waves->alias[i] = waves->alias_past[i] = 0.0;
-    }
-}
-
-static inline void cz_track_keep_waves(const CzTrackMotion *track, CzTrackUnder *under, int copy,
-                                       int v, const CzTrackWaves *waves) {
-    CzTrackRow *kept = under->wave + 4 * (copy * track->modes->n_vector + v);
-    CZ_WAVES(i) {
-        kept[0][i] = waves->direct[i];
-        kept[1][i] = waves->direct_past[i];
-        kept[2][i] = waves->alias[i];
-        kept[3][i] = waves->alias_past[i];
-    }
-}
-
-/* Adds the work of the load on a row of waves, which was constant for a step about its time: from
- * the deflection of the waves half a step before, stored there, to that half a step after. */
-static inline void cz_track_add_work(const CzTrackMotion *track, const CzTrackUnder *under,
-                                     int copy, int v, bool aliased, const CzTrackWaves *waves,
-                                     double *restrict work) {
-    const CzTrackRow *kept = under->wave + 4 * (copy * track->modes->n_vector + v);
-    const double *restrict direct = kept[1], *restrict alias = kept[3];
-    CZ_WAVES(i) {
-        work[i] += waves->load[i] * (waves->direct_past[i] - direct[i]);
-    }
-    if (aliased)
-        CZ_WAVES(i) {
-            work[i] += waves->alias_load[i] * (waves->alias_past[i] - alias[i]);
-        }
-}
-
-/* The rail waves of the present state. */
-static inline void cz_track_read(const CzTrackMotion *track, CzTrackUnder *under) {
-    for (int copy = 0; copy < 2; ++copy)
-        for (int v = 0; v < track->modes->n_vector; ++v) {
-            const CzTrackSpan span = track->span[copy * track->modes->n_vector + v];
-            CzTrackWaves waves;
-            cz_track_no_waves(&waves);
-            for (int k = span.first; k < span.end; ++k)
-                cz_track_add_displacement(&track->rows[k], under->state[2 * k],
-                                          under->state[2 * k + 1], v >= track->modes->first_alias,
-                                          &waves);
-            cz_track_keep_waves(track, under, copy, v, &waves);
-        }
-}
-
-/* Advances one row of waves by one step. */
+/* Shapes of the waves k of a vector and of their aliases k - n_seat at a wheel; adds their
+ * deflections. */
 __attribute__((always_inline)) static inline void
-cz_track_step_row(const CzTrackMotion *track, CzTrackUnder *under, int copy, int v, bool aliased,
-                  const double force[4], double *restrict work) {
-    const CzTrackSpan span = track->span[copy * track->modes->n_vector + v];
-    CzTrackWaves waves;
-    cz_track_no_waves(&waves);
-    cz_track_load(track, under, copy, v, force, aliased, &waves);
-    for (int k = span.first; k < span.end; ++k) {
-        double *restrict re = under->state[2 * k], *restrict im = under->state[2 * k + 1];
-        cz_track_flight(&track->rows[k], &waves, aliased, re, im);
-        cz_track_add_displacement(&track->rows[k], re, im, aliased, &waves);
+cz_track_add_vector(const CzTrackMotion *track, int v, bool aliased,
+                    const CzTrackShape *restrict wave, CzTrackShape *restrict shape,
+                    CzTrackWheel *at) {
+    const double *restrict own = track->wavenumber[2 * v];
+    const double *restrict of_alias = track->wavenumber[2 * v + 1], *restrict inner =
+                                                                        track->inner[v];
+    CZ_WAVES(i) {
+        const double cosine = at->cosine[i], sine = at->sine[i];
+        const double by_cosine = wave->of[CZ_COSINE][i], by_sine = wave->of[CZ_SINE][i];
+        double z = by_cosine * cosine + by_sine * sine;
+        double slope = own[i] * (by_sine * cosine - by_cosine * sine);
+        shape->of[CZ_COSINE][i] = cosine;
+        shape->of[CZ_SINE][i] = aliased ? inner[i] * sine : sine;
+        if (aliased) {
+            const double c = cosine * at->seat.re + sine * at->seat.im;
+            const double s = sine * at->seat.re - cosine * at->seat.im;
+            const double by_c = wave->of[CZ_ALIAS_COSINE][i], by_s = wave->of[CZ_ALIAS_SINE][i];
+            z += by_c * c + by_s * s;
+            slope += of_alias[i] * (by_s * c - by_c * s);
+            shape->of[CZ_ALIAS_COSINE][i] = inner[i] * c;
+            shape->of[CZ_ALIAS_SINE][i] = s;
+        }
+        at->z[i] += z;
+        at->slope[i] += slope;
     }
-    cz_track_add_work(track, under, copy, v, aliased, &waves, work);
-    cz_track_keep_waves(track, under, copy, v, &waves);
+}
+
+/* Moves a wheel of one of eight cars to a new place and reads the modes there. */
+static inline CzTrackDeflection cz_track_move_wheel(const CzTrackMotion *track,
+                                                    const CzTrackUnder *under,
+                                                    const CzTrackTurns *turns, int car, int wheel) {
+    const int n_vector = track->modes->n_vector, first_alias = track->first_alias;
+    CzTrackWheel at;
+    cz_track_start_wheel(turns, car, wheel, &at);
+    int v = 0;
+    if (first_alias > 0)
+        do {
+            cz_track_add_vector(track, v, false, &under->wave[v].now, &under->shape[4 * v + wheel],
+                                &at);
+            cz_track_next_waves(&at);
+        } while (++v < first_alias);
+    for (;;) {
+        cz_track_add_vector(track, v, true, &under->wave[v].now, &under->shape[4 * v + wheel], &at);
+        if (++v == n_vector)
+            break;
+        cz_track_next_waves(&at);
+    }
+    return (CzTrackDeflection){.z = cz_track_sum(at.z), .slope = cz_track_sum(at.slope)};
+}
+
+/* ---- a step ---- */
+
+/* Load of the wheels on a vector of waves. */
+__attribute__((always_inline)) static inline void cz_track_load(const CzTrackShape shape[4],
+                                                                const double force[4], bool aliased,
+                                                                CzTrackShape *load) {
+    for (int k = 0; k < (aliased ? CZ_N_SHAPE : CZ_ALIAS_COSINE); ++k) {
+        const double *restrict a = shape[0].of[k], *restrict b = shape[1].of[k];
+        const double *restrict c = shape[2].of[k], *restrict d = shape[3].of[k];
+        CZ_WAVES(i) {
+            load->of[k][i] =
+                (force[0] * a[i] + force[1] * b[i]) + (force[2] * c[i] + force[3] * d[i]);
+        }
+    }
+}
+
+/* Advances one copy of a row of modes by one step and adds its deflections. */
+__attribute__((always_inline)) static inline void
+cz_track_advance(const CzTrackRows *restrict rows, int copy, bool aliased, const CzTrackShape *load,
+                 CzTrackState *restrict state, CzTrackWave *sum) {
+    const int alias = CZ_ALIAS_COSINE + copy;
+    double *restrict now = state->now[copy], *restrict past = state->past[copy];
+    CZ_WAVES(i) {
+        double kicked = now[i] + rows->kick[i] * load->of[copy][i];
+        double past_kicked = past[i] + rows->past_kick[i] * load->of[copy][i];
+        if (aliased) {
+            kicked += rows->alias_kick[i] * load->of[alias][i];
+            past_kicked += rows->alias_past_kick[i] * load->of[alias][i];
+        }
+        const double half = rows->twice[i] * kicked - rows->square[i] * past_kicked;
+        const double next = rows->twice[i] * half - rows->square[i] * kicked;
+        past[i] = half;
+        now[i] = next;
+        sum->past.of[copy][i] += half;
+        sum->now.of[copy][i] += next;
+        if (aliased) {
+            sum->past.of[alias][i] += rows->alias[i] * half + rows->alias_past[i] * kicked;
+            sum->now.of[alias][i] += rows->alias[i] * next + rows->alias_past[i] * half;
+        }
+    }
+}
+
+/* Advances the modes of a vector of waves by one step and adds the work of their load, which was
+ * constant for a step about its time: from the deflection half a step before to that half a step
+ * after. */
+__attribute__((always_inline)) static inline void
+cz_track_step_row(const CzTrackMotion *track, const CzTrackUnder *under, int v, bool aliased,
+                  const double force[4], double *restrict work) {
+    const int n = aliased ? CZ_N_SHAPE : CZ_ALIAS_COSINE;
+    const int end = track->span[v].end;
+    CzTrackShape load;
+    CzTrackWave sum;
+    cz_track_load(&under->shape[4 * v], force, aliased, &load);
+    for (int k = 0; k < n; ++k)
+        CZ_WAVES(i) {
+            sum.now.of[k][i] = sum.past.of[k][i] = 0.0;
+        }
+    int row = track->span[v].first;
+    if (row == end)
+        return;
+    do {
+        cz_track_advance(&track->rows[row], 0, aliased, &load, &under->state[row], &sum);
+        cz_track_advance(&track->rows[row], 1, aliased, &load, &under->state[row], &sum);
+    } while (++row < end);
+    for (int k = 0; k < n; ++k) {
+        double *restrict now = under->wave[v].now.of[k], *restrict past = under->wave[v].past.of[k];
+        const double *restrict inner = track->inner[v];
+        const bool has_edge = aliased && k == CZ_SINE;
+        CZ_WAVES(i) {
+            work[i] += load.of[k][i] * (sum.past.of[k][i] - past[i]);
+            past[i] = sum.past.of[k][i];
+            now[i] = has_edge ? inner[i] * sum.now.of[k][i] : sum.now.of[k][i];
+        }
+    }
 }
 
 /* Advances by one step under the forces of the wheels on the rail, upwards [N], at the places of
- * the shapes. Returns their work [J]. */
-static inline double cz_track_step(const CzTrackMotion *track, CzTrackUnder *under,
+ * the last look. Returns their work [J]. */
+static inline double cz_track_step(const CzTrackMotion *track, const CzTrackUnder *under,
                                    const double force[4]) {
     CzTrackRow work = {0.0};
-    for (int copy = 0; copy < 2; ++copy) {
-        for (int v = 0; v < track->modes->first_alias; ++v)
-            cz_track_step_row(track, under, copy, v, false, force, work);
-        for (int v = track->modes->first_alias; v < track->modes->n_vector; ++v)
-            cz_track_step_row(track, under, copy, v, true, force, work);
-    }
+    for (int v = 0; v < track->first_alias; ++v)
+        cz_track_step_row(track, under, v, false, force, work);
+    for (int v = track->first_alias; v < track->modes->n_vector; ++v)
+        cz_track_step_row(track, under, v, true, force, work);
     return cz_track_sum(work);
 }
 
-/* The modes at the place of a wheel: displacement upwards and slope now. */
-static inline CzRailPoint cz_track_at(const CzTrackMotion *track, const CzTrackUnder *under,
-                                      int wheel) {
-    CzTrackRow z = {0.0}, slope = {0.0};
-    const int n = track->modes->n_vector;
-    for (int v = 0; v < n; ++v) {
-        const CzTrackRow *shape = under->shape + 4 * (wheel * n + v);
-        const CzTrackRow *by_cosine = under->wave + 4 * v, *by_sine = under->wave + 4 * (n + v);
-        const double *restrict c = shape[0], *restrict s = shape[1];
-        const double *restrict k = track->wavenumber[2 * v];
-        CZ_WAVES(i) {
-            z[i] += by_cosine[0][i] * c[i] + by_sine[0][i] * s[i];
-            slope[i] += k[i] * (by_sine[0][i] * c[i] - by_cosine[0][i] * s[i]);
-        }
-        if (v < track->modes->first_alias)
-            continue;
-        const double *restrict ac = shape[2], *restrict as = shape[3];
-        const double *restrict ak = track->wavenumber[2 * v + 1];
-        CZ_WAVES(i) {
-            z[i] += by_cosine[2][i] * ac[i] + by_sine[2][i] * as[i];
-            slope[i] += ak[i] * (by_sine[2][i] * ac[i] - by_cosine[2][i] * as[i]);
-        }
-    }
-    return (CzRailPoint){.z = cz_track_sum(z), .slope = cz_track_sum(slope)};
-}
+/* ---- the flexibility beside the modes ---- */
 
 /* Adds the flexibility between a wheel and the modes, whose terms are `stride` numbers apart. */
 static inline CzRailPoint cz_track_on_spring(double corner, const double *term, size_t stride,

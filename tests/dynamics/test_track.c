@@ -63,6 +63,126 @@ static void wheels_interact_as_in_the_statics(void **state) {
     cz_arena_free(&arena);
 }
 
+/* ---- the steps against each mode on its own ---- */
+
+/* The cosine or sine of wave k at a place, or its change along the track. */
+static double wave_at(const CzTrackModes *modes, int k, int copy, bool change, double x) {
+    const CzComplex turned = cz_turned(k * (x / modes->length));
+    if (!change)
+        return copy == 0 ? turned.re : turned.im;
+    return 2.0 * CZ_PI * k / modes->length * (copy == 0 ? -turned.im : turned.re);
+}
+
+/* g(x) of a mode of a group, or its change along the track. */
+static CzComplex shape_at(const CzTrackModes *modes, const CzTrackGroup *group, int i, bool change,
+                          double x) {
+    const int j = group->vector * CZ_TRACK_WIDTH + i;
+    return cz_complex_sum(
+        cz_complex_scaled(wave_at(modes, j, group->copy, change, x), group->direct[i]),
+        cz_complex_scaled(wave_at(modes, j - modes->n_seat, group->copy, change, x),
+                          group->alias[i]));
+}
+
+/* Deflection at a place, or its change along the track, by the amplitudes of all modes, each turned
+ * by `lambda t`. */
+static double modes_at(const CzTrackModes *modes, const CzComplex *y, double t, bool change,
+                       double x) {
+    double sum = 0.0;
+    for (int k = 0; k < modes->n_group; ++k)
+        for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
+            const CzTrackGroup *group = &modes->group[k];
+            const CzComplex turn = cz_complex_exponential(cz_complex_scaled(t, group->lambda[i]));
+            const CzComplex at = cz_complex_product(turn, y[k * CZ_TRACK_WIDTH + i]);
+            sum += cz_complex_product(shape_at(modes, group, i, change, x), at).re;
+        }
+    return sum;
+}
+
+/* y <- exp(lambda h) (y + (2 / lambda) sinh(lambda h / 2) g P) */
+static void step_modes(const CzTrackModes *modes, double step, const double place[4],
+                       const double force[4], CzComplex *y) {
+    for (int k = 0; k < modes->n_group; ++k)
+        for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
+            const CzTrackGroup *group = &modes->group[k];
+            const CzComplex lambda = group->lambda[i];
+            if (cz_complex_square_size(lambda) == 0.0)
+                continue;
+            CzComplex *of = &y[k * CZ_TRACK_WIDTH + i], load = {0.0, 0.0};
+            for (int wheel = 0; wheel < 4; ++wheel)
+                load = cz_complex_sum(
+                    load, cz_complex_scaled(force[wheel],
+                                            shape_at(modes, group, i, false, place[wheel])));
+            *of = cz_complex_sum(*of, cz_complex_product(cz_track_kick(lambda, step), load));
+            *of = cz_complex_product(cz_complex_exponential(cz_complex_scaled(step, lambda)), *of);
+        }
+}
+
+/* Slope of the modes at a place of the first wheel. */
+static double slope_at(const CzTrackMotion *track, double place) {
+    CzTrackTurns turns;
+    const CzTrackRow at[4] = {{place}};
+    cz_track_turn(track, at, &turns);
+    return cz_track_move_wheel(track, &track->under[0], &turns, 0, 0).slope;
+}
+
+/* From an unloaded track, wheels roll at 60 m/s under forces at 90 and 900 Hz: deflections and work
+ * are those of each mode's exact motion. Two deflections half a step of h apart are the state of a
+ * mode, so that rounding grows by (2 / (w h))^2 for its angular frequency w: 4e3 for the slowest
+ * mode in steps of 0.1 ms. */
+static void steps_are_the_exact_motion_of_each_mode(const CzTrackModes *modes) {
+    CzArena arena = {0};
+    const double none[4] = {0.0}, step = 1e-4, allowed = 4e3 * 2e-16 * 1e-3; /* of a millimetre */
+    CzTrackMotion *track = cz_track_motion_create(modes, step, 1, &arena);
+    assert_non_null(track);
+    assert_true(cz_track_lay(track, 0, usual_place, none, &arena));
+    const double shortest = 2.0 * CZ_PI / modes->seats.spacing; /* wavenumber [1/m] */
+    CzComplex *y = cz_arena_allocate(&arena, (size_t)modes->n_group * CZ_TRACK_WIDTH, sizeof *y);
+    assert_non_null(y);
+    for (int n = 0; n < 100; ++n) {
+        const double t = n * step;
+        double place[4], force[4], z[4], flexibility[4], work = 0.0;
+        for (int wheel = 0; wheel < 4; ++wheel) {
+            place[wheel] = usual_place[wheel] + 60.0 * t;
+            force[wheel] = -70e3 * (1.0 + 0.3 * cz_turned((wheel % 2 == 0 ? 90.0 : 900.0) * t).im);
+        }
+        cz_track_deflection(track, 0, place, z, flexibility);
+        for (int wheel = 0; wheel < 4 && n % 20 == 0; ++wheel) {
+            assert_near(z[wheel], modes_at(modes, y, 0.0, false, place[wheel]), 0.0, allowed);
+            assert_near(slope_at(track, place[wheel]), modes_at(modes, y, 0.0, true, place[wheel]),
+                        0.0, allowed * shortest);
+        }
+        cz_track_deflection(track, 0, place, z, flexibility); /* after slope_at */
+        for (int wheel = 0; wheel < 4; ++wheel)
+            work -= force[wheel] * modes_at(modes, y, -0.5 * step, false, place[wheel]);
+        step_modes(modes, step, place, force, y);
+        for (int wheel = 0; wheel < 4; ++wheel)
+            work += force[wheel] * modes_at(modes, y, -0.5 * step, false, place[wheel]);
+        assert_near(cz_track_step(track, &track->under[0], force), work, 0.0, 280e3 * allowed);
+    }
+    cz_arena_free(&arena);
+}
+
+static void a_step_is_the_exact_motion_of_each_mode(void **state) {
+    (void)state;
+    CzArena arena = {0};
+    steps_are_the_exact_motion_of_each_mode(usual_modes(SPAN, 0, 1500.0, &arena));
+    steps_are_the_exact_motion_of_each_mode(usual_modes(SPAN, 14, 1500.0, &arena));
+    /* The free sine is above the cut; there are more aliases. */
+    steps_are_the_exact_motion_of_each_mode(usual_modes(SPAN, 30, 1072.0, &arena));
+    steps_are_the_exact_motion_of_each_mode(usual_modes(SPAN, 30, 3000.0, &arena));
+    /* Modes without oscillation. */
+    CzRoadbed roadbed = usual_roadbed();
+    roadbed.subgrade_damping = 1e6;
+    roadbed.ballast_shear_stiffness = 7.84e7;
+    roadbed.ballast_shear_damping = 8e4;
+    const CzTrackOptions options = cz_track_options_default(SPAN);
+    CzTrackModes *modes = NULL;
+    CzError error = {0};
+    assert_int_equal(cz_track_build(&roadbed, &options, &arena, &modes, &error), CZ_OK);
+    steps_are_the_exact_motion_of_each_mode(modes);
+    cz_arena_free(&arena);
+}
+
 /* Smoothly varying forces of standing wheels: their work on the rail is the growth of kinetic and
  * potential energy plus the losses of pads, ballast and subgrade. The sum of the losses over steps
  * is of second order. */
@@ -348,6 +468,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_load_at_rest_deflects_the_track_as_its_statics),
         cmocka_unit_test(wheels_interact_as_in_the_statics),
+        cmocka_unit_test(a_step_is_the_exact_motion_of_each_mode),
         cmocka_unit_test(work_on_the_track_is_its_energy_and_its_losses),
         cmocka_unit_test(a_longer_window_changes_nothing),
         cmocka_unit_test(a_solver_of_differential_equations_finds_the_same),

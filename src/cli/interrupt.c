@@ -11,7 +11,8 @@
 /* The signal that was received, 0 for none. */
 static volatile sig_atomic_t stop_signal;
 
-/* The current run is completed, which takes time, so the user is told that the signal arrived. */
+/* The current run is completed, which takes time, so the user gets a message that the signal
+ * arrived. */
 static void on_signal(int signal_number) {
     static const char text[] =
         "\ncrushzone: stopping after the current run; press Ctrl-C again to stop at once\n";

@@ -79,7 +79,7 @@ static CzAnswer answer_at(const CzReplay *replay, const CzBatch *batch, int desi
 }
 
 /* Whether an answer of a search with a lower limit has the scenarios of the working set, which may
- * be another one here. A design that failed has no values that would tell. */
+ * be another one here. A design that failed has no values to compare. */
 static bool is_usable(const CzReplay *replay, const CzAnswer *answer) {
     return !replay->selection.is_on ||
            (!isnan(answer->objective) &&

@@ -126,7 +126,7 @@ static void extend_set(CzSelection *selection, const double *constraint) {
 void cz_selection_note(CzSelection *selection, bool is_whole, double objective,
                        const double *constraint) {
     const bool is_counted =
-        is_whole && !isnan(objective); /* a journal does not tell where it fails */
+        is_whole && !isnan(objective); /* a journal does not say where it fails */
     for (int s = 0; s < selection->n_scenario; s++)
         selection->n_run[s] += selection->has_run[s] && (is_counted || selection->works[s]);
     selection->n_whole += is_counted;

@@ -1,4 +1,4 @@
-/* A worker: the studies that another process told it of. */
+/* A worker: the studies that another process has sent to it. */
 #include "crushzone/executor.h"
 
 #include <stdint.h>

@@ -158,14 +158,14 @@
     });
   }
   var focus = document.getElementById('focus'), scrub = document.getElementById('scrub'), play = document.getElementById('play');
-  var speed = document.getElementById('speed'), told = document.getElementById('now'), sleepers = stage.querySelector('.sleepers');
+  var speed = document.getElementById('speed'), shown = document.getElementById('now'), sleepers = stage.querySelector('.sleepers');
   function drawStage() {
     var k = focus.selectedIndex, a = cars[k], b = cars[k + 1];
     var origin = (place(a) + a.front.bare + place(b) - b.rear.bare) / 2;
     cars.forEach(function (car, i) { drawCar(car, i, origin); });
     sleepers.setAttribute('stroke-dashoffset', S * origin - 480);
     var event = raw.events.filter(function (e) { return time[now] + 0.05 >= e[0]; }).pop();
-    told.textContent = text('t_ms') + ' ms \u00b7 ' + focus.value + ' ' + value('F', focus.value, 'kN').toFixed(0) + ' kN, closure ' +
+    shown.textContent = text('t_ms') + ' ms \u00b7 ' + focus.value + ' ' + value('F', focus.value, 'kN').toFixed(0) + ' kN, closure ' +
       value('d', focus.value, 'mm').toFixed(0) + ' mm' + (event ? ' \u00b7 ' + event[1] + ' at ' + event[0] + ' ms' : '');
   }
 

@@ -37,9 +37,9 @@ void rows_of_coaches(Rows *rows) {
     rows_of_modes(rows, &vehicle[1], "Velaro coach", velaro);
     const CzVehicleProperties properties = cz_model_vehicle_properties(collision.model, 0);
     ROW(rows, "Hz", properties.bounce_frequency, manchester[0], 0.0, 5e-5,
-        "Manchester coach: bounce, as told before a run");
+        "Manchester coach: bounce, as predicted before a run");
     ROW(rows, "Hz", properties.pitch_frequency, manchester[1], 0.0, 5e-5,
-        "Manchester coach: pitch, as told before a run");
+        "Manchester coach: pitch, as predicted before a run");
     for (int axle = 0; axle < 4; axle++)
         ROW(rows, "kN", 1e-3 * properties.axle_load[axle], 91.275 + 17.779, 0.0, 1e-3,
             "Manchester coach: load of axle %d", axle + 1);

@@ -41,10 +41,8 @@ static CzStatus evaluate_design(CzCorridor *corridor, CzError *error) {
     return cz_evaluate(parts->evaluator, 1, NULL, false, &corridor->design, error);
 }
 
-static CzStatus find(const char *file, const CzProblemOptions *problem_options,
-                     CzCorridor *corridor, CzError *error) {
-    CzCorridorParts *parts = corridor->parts;
-    CZ_TRY(read_problem(file, problem_options, corridor, error));
+CzStatus cz_corridor_prepare(CzCorridor *corridor, CzError *error) {
+    const CzCorridorParts *parts = corridor->parts;
     const CzUncertainty *uncertainty = &cz_problem_input(corridor->problem)->uncertainty;
     corridor->seed = parts->options.seed >= 0 ? parts->options.seed
                      : uncertainty->given     ? uncertainty->seed
@@ -54,7 +52,14 @@ static CzStatus find(const char *file, const CzProblemOptions *problem_options,
     corridor->widest = WIDEST;
     corridor->edge[0].failing = corridor->edge[1].failing = -1;
     CZ_TRY(cz_corridor_divide(corridor, error));
-    CZ_TRY(cz_corridor_begin(corridor, error));
+    return cz_corridor_begin(corridor, error);
+}
+
+static CzStatus find(const char *file, const CzProblemOptions *problem_options,
+                     CzCorridor *corridor, CzError *error) {
+    CZ_TRY(read_problem(file, problem_options, corridor, error));
+    CZ_TRY(cz_corridor_prepare(corridor, error));
+    corridor->parts->study = cz_corridor_study(corridor);
     CzStatus status = evaluate_design(corridor, error);
     if (status == CZ_OK)
         status = cz_corridor_search(corridor, error);
@@ -79,6 +84,7 @@ CzStatus cz_corridor(const char *file, const CzProblemOptions *problem_options,
     parts->options = *options;
     parts->executor = cz_executor_choose(options->executor, options->n_job);
     const CzStatus status = find(file, problem_options, made, error);
+    cz_study_end(&parts->study);
     made->wall_s = cz_clock() - started;
     if (status == CZ_OK)
         *corridor = made;

@@ -4,12 +4,14 @@
 
 #include "crushzone/corridor.h"
 #include "evaluate/cases.h"
+#include "evaluate/study.h"
 
 /* Memory that a corridor owns besides its arrays, and what its steps share. */
 typedef struct CzCorridorParts {
     CzArena arena; /* of draws and texts */
     CzCorridorOptions options;
     CzExecutor executor;
+    CzStudy study;          /* for the workers of the executor, if any */
     CzEvaluator *evaluator; /* of the design as written */
     CzPlacedDevice device;
     int n_stage_of_piece[CZ_MOST_PIECES]; /* stage that a piece is of */
@@ -24,6 +26,11 @@ static inline int cz_corridor_n_factor(const CzCorridor *corridor) {
     return corridor->n_piece + (corridor->peak_word != NULL);
 }
 
+static inline bool cz_corridor_is_stopped(const CzCorridor *corridor) {
+    const volatile sig_atomic_t *stop = corridor->parts->options.stop;
+    return stop != NULL && *stop != 0;
+}
+
 /* ---- before the first run (corridor_begin.c, corridor_device.c) ---- */
 
 /* Finds the device, divides its stages, and reads the problem with the pieces as stages. */
@@ -35,6 +42,9 @@ CZ_MUST_CHECK bool cz_corridor_list_draws(CzCorridor *corridor, CzDraw *draw);
 void cz_corridor_set_values(const CzCorridor *corridor, const double *factor, double *value);
 /* Fills the points of the lower, the nominal and the upper curve, and their energies. */
 void cz_corridor_fill_points(CzCorridor *corridor);
+
+/* All of these for a corridor with a problem and options. */
+CZ_MUST_CHECK CzStatus cz_corridor_prepare(CzCorridor *corridor, CzError *error);
 
 /* Lists scenarios, scatter and quasi-random curves. */
 CZ_MUST_CHECK CzStatus cz_corridor_begin(CzCorridor *corridor, CzError *error);
@@ -74,6 +84,19 @@ CZ_MUST_CHECK CzStatus cz_corridor_keep(CzCorridor *corridor, int n, const CzTri
 /* Searches a failing curve from n curves on, side by side, and keeps what was tried. */
 CZ_MUST_CHECK CzStatus cz_corridor_challenge(CzCorridor *corridor, const CzCorridorBox *box, int n,
                                              const CzTriedCurve *start, CzError *error);
+
+/* ---- in workers (corridor_study.c) ---- */
+
+/* Kinds of tasks, the first number of a request. */
+typedef enum CzCorridorTask { CZ_CORRIDOR_CURVES, CZ_CORRIDOR_ADVERSARY } CzCorridorTask;
+
+CzStudy cz_corridor_study(const CzCorridor *corridor);
+
+/* Run a task behind its kind in a request, and append its results. */
+CZ_MUST_CHECK CzStatus cz_corridor_answer_curves(CzCorridor *corridor, CzReading *request,
+                                                 CzMemoryText *answer, CzError *error);
+CZ_MUST_CHECK CzStatus cz_corridor_answer_adversary(CzCorridor *corridor, CzReading *request,
+                                                    CzMemoryText *answer, CzError *error);
 
 /* Finds the edges. Statuses: as of cz_corridor_run. */
 CZ_MUST_CHECK CzStatus cz_corridor_search(CzCorridor *corridor, CzError *error);

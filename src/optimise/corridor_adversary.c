@@ -87,11 +87,52 @@ static CzStatus run_task(int index, void *data, CzError *error) {
     return run_search(&round->adversary[index], &round->bounds, error);
 }
 
+static bool request_adversary(int index, void *data, CzMemoryText *request) {
+    const Round *round = data;
+    const Adversary *adversary = &round->adversary[index];
+    cz_put_int(request, CZ_CORRIDOR_ADVERSARY);
+    cz_put_int(request, adversary->most);
+    cz_put(request, &round->bounds, 1, sizeof round->bounds);
+    cz_put(request, adversary->start, 1, sizeof *adversary->start);
+    return !cz_corridor_is_stopped(adversary->corridor);
+}
+
+static CzStatus take_adversary(int index, void *data, CzReading *answer, CzError *error) {
+    Adversary *adversary = &((Round *)data)->adversary[index];
+    const int n = cz_get_int(answer);
+    if (n < 0 || n > adversary->most)
+        return cz_no_memory(error, "the results of an adversary");
+    adversary->n = n;
+    cz_get(answer, adversary->curve, (size_t)n, sizeof *adversary->curve);
+    return answer->has_ended ? cz_no_memory(error, "the results of an adversary") : CZ_OK;
+}
+
+CzStatus cz_corridor_answer_adversary(CzCorridor *corridor, CzReading *request,
+                                      CzMemoryText *answer, CzError *error) {
+    Bounds bounds;
+    CzTriedCurve start;
+    Adversary own = {.corridor = corridor, .start = &start, .most = cz_get_int(request)};
+    cz_get(request, &bounds, 1, sizeof bounds);
+    cz_get(request, &start, 1, sizeof start);
+    if (own.most < 1 || request->has_ended)
+        return cz_no_memory(error, "a task");
+    own.curve = malloc((size_t)own.most * sizeof *own.curve);
+    if (own.curve == NULL)
+        return cz_no_memory(error, "the search of a corridor");
+    const CzStatus status = run_search(&own, &bounds, error);
+    if (status == CZ_OK) {
+        cz_put_int(answer, own.n);
+        cz_put(answer, own.curve, (size_t)own.n, sizeof *own.curve);
+    }
+    free(own.curve);
+    return status;
+}
+
 CzStatus cz_corridor_challenge(CzCorridor *corridor, const CzCorridorBox *box, int n,
                                const CzTriedCurve *start, CzError *error) {
     const int n_factor = cz_corridor_n_factor(corridor),
               most = 2 * (n_factor + 1) + corridor->n_random;
-    const volatile sig_atomic_t *stop = corridor->parts->options.stop;
+    const CzTaskData plain = {&corridor->parts->study, request_adversary, take_adversary};
     Round round = {0};
     for (int i = 0; i < n_factor; i++) {
         round.bounds.low[i] = cz_box_factor(corridor, box, 0);
@@ -103,9 +144,9 @@ CzStatus cz_corridor_challenge(CzCorridor *corridor, const CzCorridorBox *box, i
     for (int a = 0; a < n; a++)
         round.adversary[a] = (Adversary){
             .corridor = corridor, .start = &start[a], .most = most, .curve = curve + a * most};
-    CzStatus status = cz_tasks_run(&corridor->parts->executor, n, run_task, &round, error);
+    CzStatus status = cz_tasks_share(&plain, n, run_task, &round, error);
     for (int a = 0; a < n && status == CZ_OK; a++)
         status = cz_corridor_keep(corridor, round.adversary[a].n, round.adversary[a].curve, error);
     free(curve);
-    return status == CZ_OK && stop != NULL && *stop != 0 ? CZ_STATUS_INTERRUPTED : status;
+    return status == CZ_OK && cz_corridor_is_stopped(corridor) ? CZ_STATUS_INTERRUPTED : status;
 }

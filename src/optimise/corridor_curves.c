@@ -167,18 +167,55 @@ typedef struct Batch {
     CzTriedCurve *curve; /* (n) */
 } Batch;
 
+/* Curves of a task; *n is their number. */
+static CzTriedCurve *curves_of(const Batch *batch, int index, int *n) {
+    const int first = index * CZ_CURVES_AT_ONCE, left = batch->n - first;
+    *n = left < CZ_CURVES_AT_ONCE ? left : CZ_CURVES_AT_ONCE;
+    return batch->curve + first;
+}
+
 static CzStatus run_task(int index, void *data, CzError *error) {
     const Batch *batch = data;
-    const int first = index * CZ_CURVES_AT_ONCE, left = batch->n - first;
-    return cz_corridor_run_in_thread(batch->corridor,
-                                     left < CZ_CURVES_AT_ONCE ? left : CZ_CURVES_AT_ONCE,
-                                     batch->curve + first, error);
+    int n;
+    CzTriedCurve *curve = curves_of(batch, index, &n);
+    return cz_corridor_run_in_thread(batch->corridor, n, curve, error);
+}
+
+/* The first curve lists the checks, so that it is run here. */
+static bool request_curves(int index, void *data, CzMemoryText *request) {
+    const Batch *batch = data;
+    int n;
+    const CzTriedCurve *curve = curves_of(batch, index, &n);
+    cz_put_int(request, CZ_CORRIDOR_CURVES);
+    cz_put_int(request, n);
+    cz_put(request, curve, (size_t)n, sizeof *curve);
+    return batch->corridor->check != NULL && !cz_corridor_is_stopped(batch->corridor);
+}
+
+static CzStatus take_curves(int index, void *data, CzReading *answer, CzError *error) {
+    int n;
+    CzTriedCurve *curve = curves_of(data, index, &n);
+    cz_get(answer, curve, (size_t)n, sizeof *curve);
+    return answer->has_ended ? cz_no_memory(error, "the results of a curve") : CZ_OK;
+}
+
+CzStatus cz_corridor_answer_curves(CzCorridor *corridor, CzReading *request, CzMemoryText *answer,
+                                   CzError *error) {
+    CzTriedCurve curve[CZ_CURVES_AT_ONCE];
+    const int n = cz_get_int(request);
+    if (n < 1 || n > CZ_CURVES_AT_ONCE)
+        return cz_no_memory(error, "a task");
+    cz_get(request, curve, (size_t)n, sizeof *curve);
+    CZ_TRY(cz_corridor_run_in_thread(corridor, n, curve, error));
+    cz_put(answer, curve, (size_t)n, sizeof *curve);
+    return CZ_OK;
 }
 
 CzStatus cz_corridor_run(CzCorridor *corridor, int n, CzTriedCurve *curve, CzError *error) {
     Batch batch = {.corridor = corridor, .n = n, .curve = curve};
+    const CzTaskData plain = {&corridor->parts->study, request_curves, take_curves};
     for (int k = 0; k < n; k++)
         curve[k].state = CZ_SAMPLE_NOT_RUN;
-    return cz_tasks_run(&corridor->parts->executor, (n + CZ_CURVES_AT_ONCE - 1) / CZ_CURVES_AT_ONCE,
-                        run_task, &batch, error);
+    return cz_tasks_share(&plain, (n + CZ_CURVES_AT_ONCE - 1) / CZ_CURVES_AT_ONCE, run_task, &batch,
+                          error);
 }

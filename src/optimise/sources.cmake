@@ -14,6 +14,7 @@ set(CZ_SOURCES_optimise
     corridor_curves.c
     corridor_device.c
     corridor_search.c
+    corridor_study.c
     corridor_words.c
     linear_program.c
     margin_order.c

@@ -11,10 +11,12 @@
 #include <mpi.h>
 #include <signal.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
+#include "base/clock.h"
 #include "cli/program.h"
 
 enum { TAG_MESSAGE, TAG_REQUEST, TAG_ANSWER };
@@ -25,6 +27,7 @@ enum { MOST_OPEN = 2 }; /* requests of a rank without an answer: one runs, the n
 typedef struct Head {
     int64_t n_message; /* that were sent before the request */
     int64_t task;
+    double time; /* of an answer: processor time of the task [s] */
 } Head;
 
 /* Waits without use of the processor, which another rank may need. */
@@ -77,6 +80,59 @@ static void pass_on(const Packet *packet, int rank, int n_rank) {
         MPI_Send(packet->byte, packet->n, MPI_BYTE, next, TAG_MESSAGE, MPI_COMM_WORLD);
 }
 
+/* ---- batches as scripts/schedule-ranks reads them ---------------------------------------------
+ */
+
+/* Times are those of the processor, which other work does not lengthen. */
+typedef struct Batches {
+    FILE *stream; /* of the file in the environment variable CRUSHZONE_BATCHES; NULL: none */
+    double began, ended;
+    int n_task, n_answer;
+    double in_tasks, alone; /* of all ranks; of this one before the batch [s] */
+    double n_byte;          /* of answers */
+} Batches;
+
+static Batches begin_batches(void) {
+    const char *path = getenv("CRUSHZONE_BATCHES");
+    Batches batches = {.stream = path != NULL ? fopen(path, "w") : NULL, .began = cz_clock()};
+    if (batches.stream != NULL)
+        fputs("# how often, tasks, a task [ms], its answer [kB], rank 0 alone [ms]\n",
+              batches.stream);
+    return batches;
+}
+
+static void begin_batch(Batches *batches, int n_task) {
+    batches->n_task = n_task;
+    batches->n_answer = 0;
+    batches->in_tasks = batches->n_byte = 0;
+    batches->alone = batches->stream != NULL ? cz_processor_clock() - batches->ended : 0;
+}
+
+static void run_here(Batches *batches, CzTasks *tasks, int task) {
+    const double began = batches->stream != NULL ? cz_processor_clock() : 0;
+    cz_task_run(tasks, task);
+    batches->in_tasks += batches->stream != NULL ? cz_processor_clock() - began : 0;
+}
+
+static void end_batch(Batches *batches) {
+    if (batches->stream == NULL)
+        return;
+    fprintf(batches->stream, "1 %d %.4f %.2f %.4f batch\n", batches->n_task,
+            batches->n_task > 0 ? 1e3 * batches->in_tasks / batches->n_task : 0,
+            batches->n_answer > 0 ? 1e-3 * batches->n_byte / batches->n_answer : 0,
+            1e3 * batches->alone);
+    batches->ended = cz_processor_clock();
+}
+
+static void end_batches(Batches *batches) {
+    if (batches->stream == NULL)
+        return;
+    begin_batch(batches, 0);
+    end_batch(batches);
+    fprintf(batches->stream, "# measured %.3f s\n", cz_clock() - batches->began);
+    fclose(batches->stream);
+}
+
 /* ---- rank 0 ---------------------------------------------------------------------------------- */
 
 /* A request that was sent. */
@@ -93,6 +149,7 @@ typedef struct Ranks {
     Sent (*sent)[MOST_OPEN]; /* (n) */
     int n_left;              /* tasks of the batch that nobody has yet */
     int n_open;              /* tasks that other ranks have */
+    Batches batches;
 } Ranks;
 
 static CzStatus broadcast(const CzExecutor *executor, const CzBytes *message, CzError *error) {
@@ -117,13 +174,13 @@ static void hand_out(Ranks *ranks, CzTasks *tasks, int rank, Sent *sent) {
     const int task = next_task(ranks, tasks);
     bool is_request = cz_task_request(tasks, task, &request);
     if (is_request) {
-        sent->packet = pack((Head){ranks->n_message, task}, &request);
+        sent->packet = pack((Head){.n_message = ranks->n_message, .task = task}, &request);
         sent->task = task;
         is_request = sent->packet.byte != NULL;
         cz_bytes_free(&request);
     }
     if (!is_request) {
-        cz_task_run(tasks, task);
+        run_here(&ranks->batches, tasks, task);
         return;
     }
     ranks->n_open++;
@@ -154,6 +211,9 @@ static void take(Ranks *ranks, CzTasks *tasks, const MPI_Status *arrived) {
         sent->packet.byte = NULL;
     }
     ranks->n_open--;
+    ranks->batches.n_answer++;
+    ranks->batches.n_byte += packet.n;
+    ranks->batches.in_tasks += head.time;
     cz_task_take(tasks, (int)head.task, &answer);
     free(packet.byte);
 }
@@ -162,6 +222,7 @@ static CzStatus submit(const CzExecutor *executor, CzTasks *tasks, CzError *erro
     Ranks *ranks = executor->data;
     (void)error;
     ranks->n_left = cz_tasks_n(tasks);
+    begin_batch(&ranks->batches, ranks->n_left);
     hand_out_all(ranks, tasks);
     return CZ_OK;
 }
@@ -178,16 +239,19 @@ static CzStatus wait_for_all(const CzExecutor *executor, CzTasks *tasks, CzError
             take(ranks, tasks, &arrived);
             hand_out_all(ranks, tasks);
         } else if (ranks->n_left > 0) {
-            cz_task_run(tasks, next_task(ranks, tasks));
+            run_here(&ranks->batches, tasks, next_task(ranks, tasks));
         } else {
             wait_shortly();
         }
     }
+    end_batch(&ranks->batches);
     return CZ_OK;
 }
 
 static int run_command(int argc, char **argv, int n_rank) {
-    Ranks ranks = {.n = n_rank, .sent = calloc((size_t)n_rank, sizeof *ranks.sent)};
+    Ranks ranks = {.n = n_rank,
+                   .sent = calloc((size_t)n_rank, sizeof *ranks.sent),
+                   .batches = begin_batches()};
     const CzExecutor executor = {.n_place = n_rank,
                                  .submit = submit,
                                  .wait = wait_for_all,
@@ -198,6 +262,7 @@ static int run_command(int argc, char **argv, int n_rank) {
     const int code = cz_program(argc, argv, &executor);
     const CzBytes end = {0};
     (void)broadcast(&executor, &end, NULL);
+    end_batches(&ranks.batches);
     free(ranks.sent);
     return code;
 }
@@ -244,7 +309,9 @@ static void answer(Follower *own, const MPI_Status *arrived) {
     memcpy(&head, packet.byte, sizeof head);
     while (own->n_message < head.n_message)
         take_message(own);
+    const double began = cz_processor_clock();
     const CzStatus status = cz_worker_answer(own->worker, &request, &made);
+    head.time = cz_processor_clock() - began;
     end_sending(own);
     if (status == CZ_OK)
         own->answer = pack(head, &made);

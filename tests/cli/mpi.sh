@@ -71,19 +71,26 @@ check "a front in 2 ranks is the bytes of one thread" \
     same 2 pareto two-trains.yaml --minimise margin --minimise design.installed_length_mm -n 2 --evaluations 20
 check "runs in 2 ranks are the bytes of one thread" same 2 run two-trains.yaml
 
-verification() { # verification FILE COMMAND...
+printed() { # printed FILE COMMAND...: what it prints
     out=$1
     shift
-    "$@" verify two-trains.yaml -q >verify.txt 2>err || { cat err; return 1; }
-    shown verify.txt >"$out"
+    "$@" -q >printed.txt 2>err || { cat err; return 1; }
+    shown printed.txt >"$out"
 }
-verify_is_the_same() {
-    verification verify.a "$C" && verification verify.b ranks 2 && diff verify.a verify.b
+prints_the_same() { # prints_the_same COMMAND...
+    printed there.a "$C" "$@" && printed there.b ranks 2 "$@" && diff there.a there.b
 }
-check "a verification in 2 ranks is that of threads" verify_is_the_same
+check "a verification in 2 ranks is that of threads" prints_the_same verify two-trains.yaml
+check "so is an explanation" prints_the_same explain two-trains.yaml
+check "a fit in 2 ranks ends in the bytes of one thread" same 2 optimise "$SOURCE/problems/paper-25kmh-identify.yaml" --evaluations 20
 check "a mistake in the file is reported once, with exit code 2" sh -c "
     mpirun --quiet --oversubscribe --allow-run-as-root -n 2 '$ranked' check missing.yaml >out.txt 2>err.txt
     [ \$? = 2 ] && [ \"\$(grep -c 'missing.yaml' err.txt)\" = 1 ]"
+
+compared() {
+    "$SOURCE/scripts/compare-ranks" "$BUILD" optimise two-trains.yaml --evaluations 10 >compared.txt && [ "$(grep -c ' ranks: .* batches of .*: .* s simulated, .* s measured$' compared.txt)" = 3 ] || { cat compared.txt; return 1; }
+}
+check "the schedule is simulated from the tasks of one, two and three ranks" compared
 
 # The journal of a search has this many lines or more.
 has_lines() { [ -f "$1/history.jsonl" ] && [ "$(wc -l <"$1/history.jsonl")" -ge "$2" ]; }

@@ -187,6 +187,9 @@ typedef void CzTrackSet(CzDynamics *dynamics, const double *state);
 typedef void CzTrackRate(CzDynamics *dynamics, double *rate);
 
 /* One compiled copy of the kernel. */
+/* Kinetic and elastic energy of the track under each car of a block, half a step ago [J]. */
+typedef void CzTrackEnergy(const CzDynamics *dynamics, int block, CzRow energy);
+
 typedef struct CzKernel {
     const char *isa;
     CzAdvance *advance;
@@ -195,6 +198,7 @@ typedef struct CzKernel {
     CzStep *step;
     CzTrackSet *track_set;
     CzTrackRate *track_rate;
+    CzTrackEnergy *track_energy;
 } CzKernel;
 
 /* The kernel for this processor ("auto" or NULL), or the copy of that name; NULL when the build or
@@ -213,9 +217,6 @@ bool cz_dynamics_lay_track(CzDynamics *dynamics, const CzTrackModes *const *mode
 /* Copies all that a lane has reached to a lane with the same parameters, on a rigid or a receptance
  * track. */
 void cz_dynamics_move(CzDynamics *dynamics, size_t lane, const CzDynamics *from, size_t from_lane);
-
-/* Kinetic and elastic energy of the track under each car of a block, half a step ago [J]. */
-void cz_dynamics_track_energy(const CzDynamics *dynamics, int block, CzRow energy);
 
 /* For a solver that integrates the track's states itself (track.h), on a `modal` or `receptance`
  * track laid for a step of 0: the number of states under the cars of a block, and the states. The

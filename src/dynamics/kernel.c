@@ -19,6 +19,7 @@
 #include "dynamics/kernel_side_buffers.h"
 #include "dynamics/kernel_superstructure.h"
 #include "dynamics/kernel_track.h"
+#include "dynamics/kernel_track_energy.h"
 #include "dynamics/kernel_track_rate.h"
 #include "dynamics/kernel_wheel.h"
 #include "integrate/two_step.h"
@@ -233,5 +234,5 @@ static void whole_step(CzDynamics *dynamics, double step, int first, double time
     }
 }
 
-const CzKernel KERNEL_NAME(CZ_ISA) = {ISA_TEXT(CZ_ISA), advance,    evaluate,   commit,
-                                      whole_step,       set_tracks, rate_tracks};
+const CzKernel KERNEL_NAME(CZ_ISA) = {ISA_TEXT(CZ_ISA), advance,    evaluate,    commit,
+                                      whole_step,       set_tracks, rate_tracks, track_energy};

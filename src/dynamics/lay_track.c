@@ -1,4 +1,4 @@
-/* Lays the track under the cars at t = 0, and finds its energy. */
+/* Lays the track under the cars at t = 0. */
 #include "dynamics/dynamics.h"
 
 /* Place and load of each wheelset of a car at rest, and the deflection of the track under all
@@ -102,25 +102,8 @@ bool cz_dynamics_lay_track(CzDynamics *dynamics, const CzTrackModes *const *mode
         if (!lay_under(dynamics, lane, modes[lane % n_design], arena))
             return false;
     for (int i = 0; i < dynamics->n_block; ++i)
-        cz_dynamics_track_energy(dynamics, i, dynamics->block[i].rail_rest_energy);
+        cz_kernel("baseline")->track_energy(dynamics, i, dynamics->block[i].rail_rest_energy);
     return true;
-}
-
-/* Energy under one car on a modal track or a track of elements. */
-static double energy_under(const CzDynamics *dynamics, size_t lane) {
-    if (!has_wheels(cz_block_of(dynamics, lane), lane % CZ_LANE_BLOCK))
-        return 0.0;
-    return dynamics->track != NULL      ? cz_track_energy(dynamics->track, lane)
-           : dynamics->elements != NULL ? cz_elements_energy(dynamics->elements, lane)
-                                        : 0.0;
-}
-
-void cz_dynamics_track_energy(const CzDynamics *dynamics, int block, CzRow energy) {
-    if (dynamics->receptance != NULL)
-        cz_receptance_energy(dynamics->receptance, block, energy);
-    else
-        for (size_t i = 0; i < CZ_LANE_BLOCK; ++i)
-            energy[i] = energy_under(dynamics, (size_t)block * CZ_LANE_BLOCK + i);
 }
 
 size_t cz_dynamics_track_n_state(const CzDynamics *dynamics, int block) {

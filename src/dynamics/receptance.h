@@ -72,9 +72,6 @@ void cz_receptance_move(CzReceptanceMotion *track, size_t lane, const CzReceptan
 void cz_receptance_deflection(const CzReceptanceMotion *track, size_t lane, const double place[4],
                               double deflection[4], double flexibility[4]);
 
-/* Energy that the track under each car of a block can return, half a step ago [J]. */
-void cz_receptance_energy(const CzReceptanceMotion *track, int block, CzRow energy);
-
 /* For a solver that integrates the states (dynamics.h): numbers of the states under a block, and
  * the states. They are in the order of the rows, the cars of a row one after the other. */
 size_t cz_receptance_n_state(const CzReceptanceBlock *block);

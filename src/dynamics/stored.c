@@ -292,8 +292,8 @@ void cz_stored_fill(const CzDynamics *dynamics, size_t lane, CzStored *stored) {
     fill_car(dynamics, d, lane, stored);
 }
 
-void cz_track_stored(const CzDynamics *dynamics, int block, CzRow stored) {
-    cz_dynamics_track_energy(dynamics, block, stored);
+void cz_track_stored(const CzKernel *kernel, const CzDynamics *dynamics, int block, CzRow stored) {
+    kernel->track_energy(dynamics, block, stored);
     for (int i = 0; i < CZ_LANE_BLOCK; ++i)
         stored[i] -= dynamics->block[block].rail_rest_energy[i];
 }

@@ -48,6 +48,6 @@ double cz_massless_received_at(const CzDynamics *dynamics, size_t lane, int side
                                double largest);
 
 /* Kinetic and elastic energy of the track under each car of a block above that at t = 0 [J]. */
-void cz_track_stored(const CzDynamics *dynamics, int block, CzRow stored);
+void cz_track_stored(const CzKernel *kernel, const CzDynamics *dynamics, int block, CzRow stored);
 
 #endif

@@ -1,6 +1,8 @@
 /* Sets up and reads the modal track; its steps are in track_motion.h. */
 #include "dynamics/track.h"
 
+#include "dynamics/track_energy.h"
+
 #include <string.h>
 
 /* ---- rows of modes ---- */
@@ -99,17 +101,22 @@ static void add_row(const CzTrackGroup *group, int i, double step, CzTrackRows *
     rows->alias_past[i] = cz_complex_product(ratio, of.past).re;
 }
 
+/* From y to the state and back; on a track for a step of 0 they are the same. */
 static void add_state(const CzTrackGroup *group, int i, double step, CzTrackAmplitudes *of) {
-    CzComplex now = {1.0, 0.0}, past = {0.0, 1.0};
+    CzComplex now = {1.0, 0.0}, past = {0.0, 1.0}, to_now = {1.0, 0.0}, to_past = {0.0, -1.0};
     if (step > 0.0) {
         const CzComplex back = back_of(group->lambda[i], step);
         const Recovery whole = recovery_of(back);
-        const CzComplex per_g = cz_complex_ratio(back, carrier(group, i));
+        to_now = carrier(group, i);
+        to_past = cz_complex_product(back, to_now);
+        const CzComplex per_g = cz_complex_ratio(back, to_now);
         now = cz_complex_product(per_g, whole.now);
         past = cz_complex_product(per_g, whole.past);
     }
     put(now, i, of->now_re, of->now_im);
     put(past, i, of->past_re, of->past_im);
+    put(to_now, i, of->to_now_re, of->to_now_im);
+    put(to_past, i, of->to_past_re, of->to_past_im);
 }
 
 static void add_parts(const CzTrackBlock *block, const CzTrackGroup *group, int i,
@@ -132,17 +139,19 @@ static void add_parts(const CzTrackBlock *block, const CzTrackGroup *group, int 
     put(cz_complex_product(below.ballast, pad), i, re[CZ_BALLAST], im[CZ_BALLAST]);
 }
 
-static void add_amplitudes(const CzTrackMotion *track, const CzTrackGroup *group, int i,
-                           CzTrackAmplitudes *amplitudes) {
+static void add_amplitudes(const CzTrackMotion *track, const CzTrackBlock *block,
+                           const CzTrackGroup *group, int i, CzTrackAmplitudes *amplitudes) {
+    const CzComplex rest = cz_track_constant_answer(group->lambda[i], track->step);
+    put(rest, i, amplitudes->rest_re, amplitudes->rest_im);
     put(group->lambda[i], i, amplitudes->lambda_re, amplitudes->lambda_im);
     put(group->direct[i], i, amplitudes->direct_re, amplitudes->direct_im);
     put(group->alias[i], i, amplitudes->alias_re, amplitudes->alias_im);
     add_state(group, i, track->step, amplitudes);
-    add_parts(&track->block[group->vector * CZ_TRACK_WIDTH + i], group, i, amplitudes);
+    add_parts(&block[group->vector * CZ_TRACK_WIDTH + i], group, i, amplitudes);
 }
 
-/* Numbers of all modes; the blocks are there. False when there is no memory. */
-static bool fill_rows(CzTrackMotion *track, CzArena *arena) {
+/* Numbers of all modes of the blocks; false when there is no memory. */
+static bool fill_rows(CzTrackMotion *track, const CzTrackBlock *block, CzArena *arena) {
     const CzTrackModes *modes = track->modes;
     const size_t n_row = (size_t)gather_rows(modes, NULL);
     CzTrackGroup *group = cz_arena_allocate(arena, n_row, sizeof *group);
@@ -159,13 +168,34 @@ static bool fill_rows(CzTrackMotion *track, CzArena *arena) {
         for (int i = 0; i < CZ_TRACK_WIDTH; ++i)
             if (is_mode(&group[k], i)) {
                 add_row(&group[k], i, track->step, &rows[k]);
-                add_amplitudes(track, &group[k], i, &amplitudes[k]);
+                add_amplitudes(track, block, &group[k], i, &amplitudes[k]);
             }
     }
     track->rows = rows;
     track->amplitudes = amplitudes;
     track->span = span;
     return true;
+}
+
+static void add_weights(const CzTrackBlock *block, int i, CzTrackWeights *weights) {
+    const CzSeats *seats = block->seats;
+    const double half_turn = 2.0 * cz_turned(0.5 * block->turns).im,
+                 coupled = half_turn * half_turn;
+    const double half = 0.5 * block->crests;
+    for (int w = 0; w < block->n_wave; ++w) {
+        weights->rate[CZ_RAIL_WAVE + w][i] = 0.5 * block->mass[w] / block->wave[w].share;
+        weights->value[CZ_RAIL_WAVE + w][i] =
+            weights->rate[CZ_RAIL_WAVE + w][i] * block->wave[w].bending;
+    }
+    weights->value[CZ_PAD_STRETCH][i] = half * seats->pad_k;
+    weights->value[CZ_PAD_FORCE][i] = half * block->rest;
+    weights->rate[CZ_SLEEPER][i] = half * seats->sleeper;
+    weights->rate[CZ_BALLAST][i] = half * seats->ballast;
+    weights->value[CZ_BALLAST][i] = half * (seats->lower_k + coupled * seats->across_k);
+    weights->upper[i] = half * seats->upper_k;
+    weights->pad_loss[i] = block->crests * seats->pad_c;
+    weights->upper_loss[i] = block->crests * seats->upper_c;
+    weights->ballast_loss[i] = block->crests * (seats->lower_c + coupled * seats->across_c);
 }
 
 static void fill_waves(const CzTrackModes *modes, CzTrackRow *wavenumber, CzTrackRow *inner) {
@@ -185,11 +215,14 @@ CzTrackMotion *cz_track_motion_create(const CzTrackModes *modes, double step, si
     CzTrackRow *wavenumber = cz_arena_allocate(arena, 2 * n_vector, sizeof *wavenumber);
     CzTrackRow *inner = cz_arena_allocate(arena, n_vector, sizeof *inner);
     CzTrackBlock *block = cz_arena_allocate(arena, n_block, sizeof *block);
+    CzTrackWeights *weights = cz_arena_allocate(arena, n_vector, sizeof *weights);
     CzTrackUnder *under = cz_arena_allocate(arena, n_under, sizeof *under);
     if (arena->out_of_memory)
         return NULL;
-    for (size_t j = 0; j < n_block; ++j)
+    for (size_t j = 0; j < n_block; ++j) {
         block[j] = cz_track_block(&modes->seats, modes->n_seat, (int)j);
+        add_weights(&block[j], (int)j % CZ_TRACK_WIDTH, &weights[j / CZ_TRACK_WIDTH]);
+    }
     fill_waves(modes, wavenumber, inner);
     const int last = modes->n_vector - 1;
     *track = (CzTrackMotion){.modes = modes,
@@ -199,27 +232,14 @@ CzTrackMotion *cz_track_motion_create(const CzTrackModes *modes, double step, si
                              .first_alias = modes->first_alias < last ? modes->first_alias : last,
                              .wavenumber = (const CzTrackRow *)wavenumber,
                              .inner = (const CzTrackRow *)inner,
-                             .block = block,
+                             .weights = weights,
                              .flexibility = cz_track_flexibility(modes, step),
                              .n_under = n_under,
                              .under = under};
-    return fill_rows(track, arena) ? track : NULL;
+    return fill_rows(track, block, arena) ? track : NULL;
 }
 
 /* ---- one car ---- */
-
-/* Load of one copy of a row of modes: sum of g(x) P over the wheels, at the places of the shapes.
- */
-static void load_row(const CzTrackMotion *track, const CzTrackShape *load, int row, int copy,
-                     double *restrict re, double *restrict im) {
-    const CzTrackAmplitudes *restrict of = &track->amplitudes[row];
-    const double *restrict direct = load->of[copy], *restrict alias =
-                                                        load->of[CZ_ALIAS_COSINE + copy];
-    CZ_WAVES(i) {
-        re[i] = direct[i] * of->direct_re[i] + alias[i] * of->alias_re[i];
-        im[i] = direct[i] * of->direct_im[i] + alias[i] * of->alias_im[i];
-    }
-}
 
 /* Adds the waves of one copy of a row of modes with the complex amplitudes y. */
 static void add_waves(const CzTrackAmplitudes *of, int copy, const double *restrict re,
@@ -231,61 +251,30 @@ static void add_waves(const CzTrackAmplitudes *of, int copy, const double *restr
     }
 }
 
-/* Amplitudes y half a step ago; now, on a track for a step of 0. */
-static void past_of(const CzTrackAmplitudes *restrict of, const CzTrackState *state, int copy,
-                    double *restrict re, double *restrict im) {
-    const double *restrict now = state->now[copy], *restrict past = state->past[copy];
-    CZ_WAVES(i) {
-        re[i] = of->now_re[i] * now[i] + of->past_re[i] * past[i];
-        im[i] = of->now_im[i] * now[i] + of->past_im[i] * past[i];
-    }
-}
-
-/* State of a mode with the amplitude y. */
-static void put_state(const CzTrackMotion *track, int row, int copy, int i, CzComplex y,
-                      CzTrackState *state) {
-    const CzTrackAmplitudes *of = &track->amplitudes[row];
-    CzComplex g = {of->direct_re[i], of->direct_im[i]};
-    if (track->step > 0.0) {
-        if (cz_complex_square_size(g) == 0.0)
-            g = (CzComplex){of->alias_re[i], of->alias_im[i]};
-        const CzComplex lambda = {of->lambda_re[i], of->lambda_im[i]};
-        const CzComplex now = cz_complex_product(g, y);
-        y = (CzComplex){now.re, cz_complex_product(back_of(lambda, track->step), now).re};
-    }
-    state->now[copy][i] = y.re;
-    state->past[copy][i] = y.im;
-}
-
 /* Lays one copy of a row of modes at rest under constant loads of its waves. */
 static void rest_row(const CzTrackMotion *track, const CzTrackUnder *under,
                      const CzTrackShape *load, int row, int copy, CzTrackWave *wave) {
-    const CzTrackAmplitudes *of = &track->amplitudes[row];
-    CzTrackRow re, im, past_re, past_im;
-    load_row(track, load, row, copy, re, im);
-    for (int i = 0; i < CZ_TRACK_WIDTH; ++i) {
-        const CzComplex lambda = {of->lambda_re[i], of->lambda_im[i]};
-        if (cz_complex_square_size(lambda) == 0.0)
-            continue; /* no mode, no load */
-        const CzComplex y = cz_complex_product((CzComplex){re[i], im[i]},
-                                               cz_track_constant_answer(lambda, track->step));
-        put_state(track, row, copy, i, y, &under->state[row]);
-        put(y, i, re, im);
+    const CzTrackAmplitudes *restrict of = &track->amplitudes[row];
+    double *restrict now = under->state[row].now[copy];
+    double *restrict past = under->state[row].past[copy];
+    CzTrackRow load_re, load_im, re, im, past_re, past_im;
+    cz_track_load_row(track, load, row, copy, load_re, load_im);
+    CZ_WAVES(i) {
+        re[i] = of->rest_re[i] * load_re[i] - of->rest_im[i] * load_im[i];
+        im[i] = of->rest_re[i] * load_im[i] + of->rest_im[i] * load_re[i];
+        now[i] = of->to_now_re[i] * re[i] - of->to_now_im[i] * im[i];
+        past[i] = of->to_past_re[i] * re[i] - of->to_past_im[i] * im[i];
     }
-    past_of(of, &under->state[row], copy, past_re, past_im);
+    cz_track_past_row(of, &under->state[row], copy, past_re, past_im);
     add_waves(of, copy, re, im, &wave->now);
     add_waves(of, copy, past_re, past_im, &wave->past);
-}
-
-static bool is_aliased(const CzTrackMotion *track, int v) {
-    return v >= track->first_alias;
 }
 
 /* The modes at rest under constant forces of the wheels. */
 static void rest_under(const CzTrackMotion *track, const CzTrackUnder *under) {
     for (int v = 0; v < track->modes->n_vector; ++v) {
         CzTrackShape load = {0};
-        cz_track_load(&under->shape[4 * v], under->force, is_aliased(track, v), &load);
+        cz_track_load(&under->shape[4 * v], under->force, cz_track_is_aliased(track, v), &load);
         memset(&under->wave[v], 0, sizeof under->wave[v]);
         for (int row = track->span[v].first; row < track->span[v].end; ++row)
             for (int copy = 0; copy < 2; ++copy)
@@ -332,90 +321,6 @@ void cz_track_deflection(const CzTrackMotion *track, size_t index, const double 
     }
 }
 
-/* ---- energy ---- */
-
-/* Displacement and rate of each part of eight neighbouring blocks at its crest. */
-typedef struct Parts {
-    CzTrackRow value[CZ_TRACK_PARTS], rate[CZ_TRACK_PARTS];
-} Parts;
-
-/* Adds one copy of a row of modes half a step ago, at the end of the last force: its amplitudes
- * then, and their rates with that force still acting. */
-static void add_copy(const CzTrackMotion *track, const CzTrackUnder *under,
-                     const CzTrackShape *load, int row, int copy, Parts *parts) {
-    const CzTrackAmplitudes *restrict of = &track->amplitudes[row];
-    CzTrackRow y_re, y_im, rate_re, rate_im, load_re, load_im;
-    load_row(track, load, row, copy, load_re, load_im);
-    past_of(of, &under->state[row], copy, y_re, y_im);
-    CZ_WAVES(i) {
-        rate_re[i] = of->lambda_re[i] * y_re[i] - of->lambda_im[i] * y_im[i] + load_re[i];
-        rate_im[i] = of->lambda_re[i] * y_im[i] + of->lambda_im[i] * y_re[i] + load_im[i];
-    }
-    for (int part = 0; part < CZ_TRACK_PARTS; ++part) {
-        const double *restrict a_re = of->part_re[part], *restrict a_im = of->part_im[part];
-        double *restrict value = parts->value[part], *restrict rate = parts->rate[part];
-        CZ_WAVES(i) {
-            value[i] += a_re[i] * y_re[i] - a_im[i] * y_im[i];
-            rate[i] += a_re[i] * rate_re[i] - a_im[i] * rate_im[i];
-        }
-    }
-}
-
-static double square(double value) {
-    return value * value;
-}
-
-static void parts_energy(const CzTrackBlock *block, const Parts *parts, int i, double *energy,
-                         double *loss) {
-    const CzSeats *seats = block->seats;
-    const double coupled = square(2.0 * cz_turned(0.5 * block->turns).im);
-    const CzTrackRow *value = parts->value, *rate = parts->rate;
-    for (int w = 0; w < block->n_wave; ++w)
-        *energy += 0.5 * block->mass[w] / block->wave[w].share *
-                   (square(rate[CZ_RAIL_WAVE + w][i]) +
-                    block->wave[w].bending * square(value[CZ_RAIL_WAVE + w][i]));
-    const double upper = value[CZ_SLEEPER][i] - value[CZ_BALLAST][i];
-    const double upper_rate = rate[CZ_SLEEPER][i] - rate[CZ_BALLAST][i];
-    *energy += 0.5 * block->crests *
-               (seats->pad_k * square(value[CZ_PAD_STRETCH][i]) +
-                block->rest * square(value[CZ_PAD_FORCE][i]) +
-                seats->sleeper * square(rate[CZ_SLEEPER][i]) + seats->upper_k * square(upper) +
-                seats->ballast * square(rate[CZ_BALLAST][i]) +
-                (seats->lower_k + coupled * seats->across_k) * square(value[CZ_BALLAST][i]));
-    *loss += block->crests *
-             (seats->pad_c * square(rate[CZ_PAD_STRETCH][i]) + seats->upper_c * square(upper_rate) +
-              (seats->lower_c + coupled * seats->across_c) * square(rate[CZ_BALLAST][i]));
-}
-
-static void add_up(const CzTrackMotion *track, size_t index, double *energy, double *loss) {
-    const CzTrackUnder *under = &track->under[index];
-    for (int v = 0; v < track->modes->n_vector; ++v) {
-        const int first = v * CZ_TRACK_WIDTH;
-        CzTrackShape load = {0};
-        cz_track_load(&under->shape[4 * v], under->force, is_aliased(track, v), &load);
-        for (int copy = 0; copy < 2; ++copy) {
-            Parts parts;
-            memset(&parts, 0, sizeof parts);
-            for (int row = track->span[v].first; row < track->span[v].end; ++row)
-                add_copy(track, under, &load, row, copy, &parts);
-            for (int i = 0; i < CZ_TRACK_WIDTH && 2 * (first + i) <= track->modes->n_seat; ++i)
-                parts_energy(&track->block[first + i], &parts, i, energy, loss);
-        }
-    }
-}
-
-double cz_track_energy(const CzTrackMotion *track, size_t index) {
-    double energy = 0.0, loss = 0.0;
-    add_up(track, index, &energy, &loss);
-    return energy;
-}
-
-double cz_track_loss(const CzTrackMotion *track, size_t index) {
-    double energy = 0.0, loss = 0.0;
-    add_up(track, index, &energy, &loss);
-    return loss;
-}
-
 /* ---- for a solver of ordinary differential equations ---- */
 
 size_t cz_track_n_state(const CzTrackModes *modes) {
@@ -446,7 +351,7 @@ static void rate_copy(const CzTrackMotion *track, const CzTrackShape *load, int 
     const double *restrict re = state->now[copy], *restrict im = state->past[copy];
     double *restrict rate_re = rate->now[copy], *restrict rate_im = rate->past[copy];
     CzTrackRow load_re, load_im;
-    load_row(track, load, row, copy, load_re, load_im);
+    cz_track_load_row(track, load, row, copy, load_re, load_im);
     CZ_WAVES(i) {
         rate_re[i] = of->lambda_re[i] * re[i] - of->lambda_im[i] * im[i] + load_re[i];
         rate_im[i] = of->lambda_re[i] * im[i] + of->lambda_im[i] * re[i] + load_im[i];
@@ -461,7 +366,7 @@ void cz_track_rate(CzTrackMotion *track, size_t index, const double force[4], do
     memset(rail_rate, 0, 4 * sizeof *rail_rate);
     for (int v = 0; v < track->modes->n_vector; ++v) {
         CzTrackShape load = {0}, rising = {0};
-        cz_track_load(&under->shape[4 * v], force, is_aliased(track, v), &load);
+        cz_track_load(&under->shape[4 * v], force, cz_track_is_aliased(track, v), &load);
         for (int row = track->span[v].first; row < track->span[v].end; ++row) {
             CzTrackState of_row;
             for (int copy = 0; copy < 2; ++copy)
@@ -469,7 +374,8 @@ void cz_track_rate(CzTrackMotion *track, size_t index, const double force[4], do
             memcpy((char *)rate + (size_t)row * sizeof of_row, &of_row, sizeof of_row);
         }
         for (int wheel = 0; wheel < 4; ++wheel)
-            for (int k = 0; k < (is_aliased(track, v) ? CZ_N_SHAPE : CZ_ALIAS_COSINE); ++k) {
+            for (int k = 0; k < (cz_track_is_aliased(track, v) ? CZ_N_SHAPE : CZ_ALIAS_COSINE);
+                 ++k) {
                 CzTrackRow moved;
                 CZ_WAVES(i) {
                     moved[i] = under->shape[4 * v + wheel].of[k][i] * rising.of[k][i];

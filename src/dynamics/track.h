@@ -1,4 +1,4 @@
-/* The modal track under each car: setting it up, its deflections and its energy.
+/* The modal track under each car: setting it up and its deflections.
  *
  * Positions are those of the wheels along the track from the middle of the car at t = 0, where a
  * seat is; deflections are upwards and zero for the unloaded track.
@@ -26,12 +26,6 @@ bool cz_track_lay(CzTrackMotion *track, size_t index, const double place[4], con
  * additional flexibility [m/N]. */
 void cz_track_deflection(const CzTrackMotion *track, size_t index, const double place[4],
                          double deflection[4], double flexibility[4]);
-
-/* Half a step before the time that the state is at, when the last forces had just ended: energy
- * of the track under a car, kinetic and potential above the unloaded track [J], and the power that
- * pads, ballast and subgrade turn into heat [W]. */
-double cz_track_energy(const CzTrackMotion *track, size_t index);
-double cz_track_loss(const CzTrackMotion *track, size_t index);
 
 /* ---- the same track for a solver of ordinary differential equations ----
  *

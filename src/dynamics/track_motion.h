@@ -45,9 +45,18 @@ enum { CZ_TRACK_PARTS = CZ_RAIL_WAVE + CZ_BLOCK_WAVES };
 typedef struct CzTrackAmplitudes {
     _Alignas(64) CzTrackRow lambda_re, lambda_im;
     CzTrackRow direct_re, direct_im, alias_re, alias_im;         /* g of the waves */
+    CzTrackRow rest_re, rest_im;                                 /* y per constant load */
+    CzTrackRow to_now_re, to_now_im, to_past_re, to_past_im;     /* state per y: real part */
     CzTrackRow now_re, now_im, past_re, past_im;                 /* y half a step ago per state */
     CzTrackRow part_re[CZ_TRACK_PARTS], part_im[CZ_TRACK_PARTS]; /* parts at the crest per y */
 } CzTrackAmplitudes;
+
+/* Energy and loss of the parts of eight neighbouring blocks per square of what moves. */
+typedef struct CzTrackWeights {
+    _Alignas(64) CzTrackRow value[CZ_TRACK_PARTS], rate[CZ_TRACK_PARTS]; /* energy */
+    CzTrackRow upper; /* between sleeper and ballast block */
+    CzTrackRow pad_loss, upper_loss, ballast_loss;
+} CzTrackWeights;
 
 /* Rows of modes of one vector of waves: first ... end - 1. */
 typedef struct CzTrackSpan {
@@ -92,7 +101,7 @@ typedef struct CzTrackMotion {
     int first_alias;                     /* first vector with aliases or the free sine */
     const CzTrackRow *inner;             /* 0 for wave n_seat / 2, else 1 (n_vector) */
     const CzTrackRow *wavenumber;        /* direct, alias [1/m] (2 n_vector) */
-    const CzTrackBlock *block;           /* for the energy (n_seat / 2 + 1) */
+    const CzTrackWeights *weights;       /* for the energy (n_vector) */
     CzTrackFlexibility flexibility;      /* under a wheel, in addition to the modes */
     size_t n_under;
     CzTrackUnder *under; /* (n_under) */

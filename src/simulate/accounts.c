@@ -29,7 +29,8 @@ void cz_accounts_take(const CzBatch *batch, int design) {
 double cz_track_account(const CzBatch *batch, size_t lane) {
     CzTrackAccount *account = &batch->in_track[lane / CZ_LANE_BLOCK];
     if (account->taken != batch->n_step + 1)
-        cz_track_stored(batch->dynamics, (int)(lane / CZ_LANE_BLOCK), account->stored);
+        cz_track_stored(batch->kernel, batch->dynamics, (int)(lane / CZ_LANE_BLOCK),
+                        account->stored);
     account->taken = batch->n_step + 1;
     return account->stored[lane % CZ_LANE_BLOCK];
 }

@@ -5,7 +5,7 @@
 #include "physics/rails.h"
 #include "physics/roadbed.h"
 
-#include "dynamics/track_motion.h"
+#include "dynamics/track_energy.h"
 #include "laws/wheel_rail.h"
 #include "model/track_bound.h"
 
@@ -193,8 +193,8 @@ static double energy_gap(double cut, double step) {
     CzTrackUnder *under = &track->under[0];
     const long n_step = lround(0.05 / step);
     double work = 0.0, lost = 0.0, size = 0.0, deflection[4], flexibility[4];
-    const double rest_energy = cz_track_energy(track, 0);
-    double last = cz_track_loss(track, 0);
+    double rest_energy, grown, last, now;
+    cz_track_energy(track, under, &rest_energy, &last);
     assert_near(last, 0.0, 0.0, 1e-9); /* [W] at rest */
     cz_track_deflection(track, 0, usual_place, deflection, flexibility);
     for (long n = 0; n < n_step; ++n) {
@@ -203,12 +203,12 @@ static double energy_gap(double cut, double step) {
                                  -load[3] * (1.0 - bump)};
         memcpy(under->force, force, sizeof force);
         work += cz_track_step(track, under, force);
-        const double now = cz_track_loss(track, 0);
+        cz_track_energy(track, under, &grown, &now);
         lost += 0.5 * step * (last + now);
         last = now;
         size = fmax(size, lost);
     }
-    const double grown = cz_track_energy(track, 0) - rest_energy;
+    grown -= rest_energy;
     assert_true(size > 5.0); /* [J]: the test is sensitive */
     cz_arena_free(&arena);
     return (grown + lost - work) / size;

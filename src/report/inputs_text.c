@@ -13,6 +13,38 @@
 
 enum { CAR_INDENT = 6, MOST_LEVELS = 16, MOST_DEFAULTS = 400 };
 
+static int indent_of(const char *line) {
+    return (int)strspn(line, " ");
+}
+
+/* The parts at the end of a line's origin, as ", part tube, part coupler"; its end for none. */
+static char *parts_of(char *line) {
+    char *origin = strchr(line, '#');
+    char *parts = origin != NULL ? strstr(origin, ", part ") : NULL;
+    return parts != NULL ? parts : line + strlen(line);
+}
+
+/* The line of the record around a line; NULL for none. */
+static char *around(const CzInputsText *inputs, int i) {
+    const int indent = indent_of(inputs->line[i]);
+    while (--i >= 0)
+        if (indent_of(inputs->line[i]) < indent)
+            return inputs->line[i];
+    return NULL;
+}
+
+/* Leaves out of each origin the parts that the record around has, too. From the last line to the
+ * first, so that records around still have all of theirs. */
+static void shorten_origins(CzInputsText *inputs) {
+    for (int i = inputs->n_line - 1; i >= 0; i--) {
+        char *parts = parts_of(inputs->line[i]), *record = around(inputs, i);
+        const char *known = record != NULL ? parts_of(record) : "";
+        const size_t n = strlen(parts), n_known = strlen(known);
+        if (n_known > 0 && n >= n_known && strcmp(parts + n - n_known, known) == 0)
+            parts[n - n_known] = '\0';
+    }
+}
+
 CzStatus cz_inputs_text_begin(CzInputsText *inputs, const CzProblem *problem, CzError *error) {
     CzMemoryText memory = {0};
     *inputs = (CzInputsText){0};
@@ -33,6 +65,7 @@ CzStatus cz_inputs_text_begin(CzInputsText *inputs, const CzProblem *problem, Cz
     for (char *line = strtok_r(inputs->text, "\n", &next); line != NULL;
          line = strtok_r(NULL, "\n", &next))
         inputs->line[inputs->n_line++] = line;
+    shorten_origins(inputs);
     return CZ_OK;
 }
 
@@ -40,10 +73,6 @@ void cz_inputs_text_free(CzInputsText *inputs) {
     free(inputs->line);
     free(inputs->text);
     *inputs = (CzInputsText){0};
-}
-
-static int indent_of(const char *line) {
-    return (int)strspn(line, " ");
 }
 
 /* Writes a line, with names of files relative to the problem's folder. */
@@ -65,17 +94,18 @@ static bool begins_car(const char *line) {
     return indent_of(line) == CAR_INDENT && strncmp(line + CAR_INDENT, "- name: ", 8) == 0;
 }
 
-/* The first line after a car. */
-static int end_of_car(const CzInputsText *inputs, int first) {
+/* The first line after a car or another record. */
+static int end_of(const CzInputsText *inputs, int first) {
     int i = first + 1;
-    while (i < inputs->n_line && indent_of(inputs->line[i]) > CAR_INDENT)
+    while (i < inputs->n_line && indent_of(inputs->line[i]) > indent_of(inputs->line[first]))
         i++;
     return i;
 }
 
+/* Whether two records have the same lines below their first ones. */
 static bool are_equal(const CzInputsText *inputs, int a, int b) {
-    const int n = end_of_car(inputs, a) - a;
-    if (end_of_car(inputs, b) - b != n)
+    const int n = end_of(inputs, a) - a;
+    if (end_of(inputs, b) - b != n)
         return false;
     for (int i = 1; i < n; i++)
         if (strcmp(inputs->line[a + i], inputs->line[b + i]) != 0)
@@ -91,23 +121,71 @@ static int same_car(const CzInputsText *inputs, int car) {
     return -1;
 }
 
+/* Whether a line begins a record of a car, such as an end, that is worth a reference. */
+static bool begins_part_of_car(const CzInputsText *inputs, int i) {
+    enum { FEWEST_LINES = 5 };
+    return indent_of(inputs->line[i]) == CAR_INDENT + 2 && end_of(inputs, i) - i >= FEWEST_LINES;
+}
+
+/* The first line of an equal record of an earlier car, and that car; -1 when there is none. */
+static int same_part_of_car(const CzInputsText *inputs, int part, int *car) {
+    int last = -1;
+    for (int i = 0; i < part; i++) {
+        if (indent_of(inputs->line[i]) < CAR_INDENT)
+            last = -1;
+        if (begins_car(inputs->line[i]))
+            last = *car = i;
+        if (last >= 0 && begins_part_of_car(inputs, i) && are_equal(inputs, i, part))
+            return i;
+    }
+    return -1;
+}
+
 static void name_of(const char *line, char name[64]) {
     const char *from = line + CAR_INDENT + 8;
     snprintf(name, 64, "%.*s", (int)strcspn(from, " "), from);
 }
 
+static void write_reference_to_car(const CzInputsText *inputs, int car, int same,
+                                   CzMarkup *markup) {
+    char name[64], first[64];
+    name_of(inputs->line[car], name);
+    name_of(inputs->line[same], first);
+    cz_markup_write(markup, "      - name: %s   (otherwise as %s)\n", name, first);
+}
+
+/* As "front: (as rear of A1)", with its origin. */
+static void write_reference_to_part(const CzInputsText *inputs, int part, int same, int car,
+                                    CzMarkup *markup) {
+    const char *key = inputs->line[part], *other = inputs->line[same] + CAR_INDENT + 2;
+    const char *origin = strchr(key, '#');
+    char text[CZ_SENTENCE_ROOM], name[64];
+    name_of(inputs->line[car], name);
+    snprintf(text, sizeof text, "%.*s (as %.*s of %s)", (int)strcspn(key, ":") + 1, key,
+             (int)strcspn(other, ":"), other, name);
+    const size_t used = strlen(text);
+    if (origin != NULL)
+        snprintf(text + used, sizeof text - used, "%*s%s",
+                 (int)(origin - key) > (int)used ? (int)(origin - key) - (int)used : 1, "", origin);
+    write_line(inputs, text, markup);
+}
+
 void cz_inputs_text_write(const CzInputsText *inputs, CzMarkup *markup) {
+    bool in_car = false;
     for (int i = 0; i < inputs->n_line;) {
-        const int same = begins_car(inputs->line[i]) ? same_car(inputs, i) : -1;
-        if (same < 0) {
+        const bool is_car = begins_car(inputs->line[i]);
+        int car = -1, same = is_car ? same_car(inputs, i) : -1;
+        in_car = is_car || (in_car && indent_of(inputs->line[i]) > CAR_INDENT);
+        if (same >= 0)
+            write_reference_to_car(inputs, i, same, markup);
+        else if (in_car && begins_part_of_car(inputs, i))
+            same = same_part_of_car(inputs, i, &car);
+        if (same < 0)
             write_line(inputs, inputs->line[i++], markup);
-            continue;
-        }
-        char name[64], first[64];
-        name_of(inputs->line[i], name);
-        name_of(inputs->line[same], first);
-        cz_markup_write(markup, "      - name: %s   (otherwise as %s)\n", name, first);
-        i = end_of_car(inputs, i);
+        else if (!is_car)
+            write_reference_to_part(inputs, i, same, car, markup);
+        if (same >= 0)
+            i = end_of(inputs, i);
     }
 }
 

@@ -19,9 +19,9 @@
 enum {
     EVEN_SAMPLES = 240,
     DIGITS = 5,
-    FINEST_TIME = 6,     /* decimals of a millisecond */
-    PAGE_ROOM = 1000000, /* largest size of a page that leaves out rows [byte]; ours */
-    FOOT_ROOM = 1000     /* size of what follows the numbers, without the script [byte] */
+    FINEST_TIME = 6,    /* decimals of a millisecond */
+    PAGE_ROOM = 900000, /* largest size of a page that leaves out rows [byte]; ours */
+    FOOT_ROOM = 1000    /* size of what follows the numbers, without the script [byte] */
 };
 
 /* Largest number of decimals of the channels in the data of the page, 0 for other channels; fewer
@@ -234,7 +234,7 @@ static void write_rows(CzPage *page, const Rows *rows) {
                         cz_figure_plain(until, page->time[rows->n_first - 1]));
     cz_markup_write(markup,
                     "every event, every extreme of a force or an acceleration, and at least every "
-                    "%s ms: with all %d rows this page would be larger than 1 MB.</p>\n",
+                    "%s ms: with all %d rows this page would be larger than 0.9 MB.</p>\n",
                     cz_figure_plain(every, spacing), rows->n);
 }
 

@@ -109,7 +109,8 @@ static void write_assumptions(CzPage *page) {
         "reported as bottoming out.",
         "Override is judged until engagement is lost or a wheel is above its flange; later results "
         "are beyond the validity of the model.",
-        "A pass is not a certificate; PROVISIONAL marks a limit or scenario that is not confirmed."};
+        "A pass is not a certificate; PROVISIONAL marks a limit or scenario that is not "
+        "confirmed."};
     CzMarkup *markup = &page->markup;
     const CzWord *track =
         &cz_word_sets[CZ_WORDS_TRACK].word[cz_problem_input(page->problem)->simulation.track];
@@ -151,7 +152,9 @@ void cz_page_write_inputs(CzPage *page) {
     write_sources(page);
     cz_markup_write(markup,
                     "<h3>Complete problem in SI units, with the origin of each value</h3>"
-                    "<details><summary>resolved problem; of equal cars only the first</summary>"
+                    "<p>Parts of an origin are given where its record does not give them.</p>"
+                    "<details><summary>resolved problem; of equal cars, and of equal ends and "
+                    "bogies, only the first</summary>"
                     "<pre>");
     cz_inputs_text_write(&page->inputs, markup);
     cz_markup_write(markup, "</pre></details></section>\n");

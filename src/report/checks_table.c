@@ -48,12 +48,17 @@ const char *cz_checks_value(char text[CZ_CHECK_ROOM], const CzCheckResult *check
                  check->beyond_validity ? "*" : "");
         return text;
     }
-    cz_figure_plain(number, check->value);
+    /* Two decimals leave a small share with one digit. */
+    const bool is_small = spaced_unit(check, unit)[0] == '\0' && fabs(check->value) < 0.1;
+    if (is_small)
+        cz_figure_digits(number, 3, check->value);
+    else
+        cz_figure_plain(number, check->value);
     /* A value that violates its limit must not read as equal to it. */
     const bool breaks =
         check->is_minimum ? check->value < check->limit : check->value > check->limit;
     double read;
-    for (int digits = 5; breaks && isfinite(check->value) && digits <= 17; digits++) {
+    for (int digits = 3; breaks && isfinite(check->value) && digits <= 17; digits++) {
         if (cz_number_parse(number, &read) == NULL && read != check->limit)
             break;
         cz_figure_digits(number, digits, check->value);

@@ -111,6 +111,11 @@ yes_or_no() {
         grep -E '^(bottoming out|override)  ' out.txt >row.txt && ! grep '%' row.txt && grep FAIL row.txt
 }
 check "a yes-or-no check has no percentage" yes_or_no
+small_share() {
+    printf 'extends: elastic.yaml\nchecks: {profile: null, limits: [{name: used, metric: "elements.coupler *.stroke_used", max: 0.04}]}\n' >small.yaml
+    exits 1 "$C" check small.yaml --set trains.A.speed_km_h=0.45 && grep -qE '^used +coupler A1 +0\.04 +0\.0417 +-' out.txt
+}
+check "a small share has three digits beside its limit" small_share
 many_times() {
     "$C" run low.yaml -o out --set trains.A.speed_km_h=60 >out.txt 2>err.txt
     grep '< -999 %' out.txt >row.txt && says out/report.html '&lt; -999 %' && ! grep -E ' [0-9]{4,} %' out.txt

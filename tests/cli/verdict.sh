@@ -302,6 +302,14 @@ else
     skipped "--junit has a case for each check and run, with the counts of the JSON" "no python3"
     skipped "--junit of several files is one document, with an error for a file that cannot be judged" "no python3"
 fi
+screened() { # screened FOLDER: what the commands of a screening write
+    mkdir "$1" && { "$C" check three.yaml --junit "$1/check.xml" -o "$1/run" -q; "$C" sweep three.yaml --vary trains.A.speed_km_h=4.5,12.25 --junit "$1/sweep.xml" -q
+        "$C" profile list; "$C" profile show own; "$C" profile scenarios en15227-2008 --category C-I; "$C" new en15227 --category C-II -o -
+        "$C" sample unsure.yaml --junit "$1/sample.xml" -q; "$C" compare elastic.yaml low.yaml -q; "$C" explain low.yaml -q; printf '{"set": {"trains.A.speed_km_h": 4.75}}\n' | "$C" serve elastic.yaml -q; } >"$1/out.txt" 2>"$1/err.txt"
+    grep -vE '"(wall_s|setup_s)"' "$1/run/summary.json" >"$1/summary.json" && sed -i 's/"run_info": *{[^}]*}//g' "$1/out.txt" && rm -r "$1/run"
+}
+german() { screened plain && LOCPATH=$BUILD/tests/locales LC_ALL=de_DE.UTF-8 screened german && diff -r plain german && [ "$(wc -l <plain/out.txt)" -gt 100 ]; }
+check "the commands of a screening write the same bytes in a locale with a decimal comma" german
 written() {
     "$C" run three.yaml --junit one.xml -o out -q >out.txt; "$C" run three.yaml --junit two.xml -j 1 -o out -q >out.txt
     cmp one.xml two.xml && exits 4 "$C" check elastic.yaml --junit nowhere/one.xml && exits 2 "$C" check elastic.yaml --junit - && exits 4 "$C" check elastic.yaml --junit out/summary.json && ! says err.txt 'results in' && says err.txt 'is a result of crushzone'

@@ -27,39 +27,12 @@ typedef struct Site {
     const CzElementResult *element;
 } Site;
 
-/* The element of a name; of the two couplers of a vehicle the one that has the larger force. */
-static void find_element(Site *site, const char *where) {
-    for (int i = 0; i < site->summary->n_interface; i++)
-        for (int k = 0; k < site->summary->interface[i].n_element; k++) {
-            const CzElementResult *element = &site->summary->interface[i].element[k];
-            const bool is_larger =
-                site->element == NULL || element->peak_force > site->element->peak_force;
-            if (strcmp(element->name, where) != 0 || !is_larger)
-                continue;
-            site->element = element;
-            site->interface[0] = i;
-        }
-}
-
 static void find_place(Site *site, const char *where, int colliding) {
-    for (int i = 0; i < site->summary->n_interface; i++)
-        if (strcmp(site->summary->interface[i].name, where) == 0)
-            site->interface[0] = i;
-    if (site->interface[0] < 0)
-        find_element(site, where);
-    const int vehicle = site->interface[0] < 0 ? cz_where_vehicle(site->summary, where) : -1;
-    if (vehicle >= 0) {
-        const char *end = where + strlen(site->summary->vehicle[vehicle].name);
-        site->vehicle = vehicle;
-        site->interface[0] = strcmp(end, " front") == 0 ? vehicle : vehicle - 1;
-        site->interface[1] = *end == '\0' ? vehicle : -1;
-    }
-    if (site->interface[1] >= site->summary->n_interface)
-        site->interface[1] = -1;
-    if (site->interface[0] < 0) { /* a vehicle at the rear, or the run as a whole */
-        site->interface[0] = site->interface[1] >= 0 ? site->interface[1] : colliding;
-        site->interface[1] = -1;
-    }
+    const CzWhere found = cz_where_find(site->summary, where);
+    site->vehicle = found.vehicle;
+    site->element = found.element;
+    site->interface[0] = found.interface[0] >= 0 ? found.interface[0] : colliding;
+    site->interface[1] = found.interface[1];
 }
 
 /* The listed check behind a result. */

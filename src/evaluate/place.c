@@ -4,6 +4,40 @@
 #include <stdio.h>
 #include <string.h>
 
+static void find_element(const CzRunSummary *run, const char *where, CzWhere *found) {
+    for (int i = 0; i < run->n_interface; i++)
+        for (int k = 0; k < run->interface[i].n_element; k++) {
+            const CzElementResult *element = &run->interface[i].element[k];
+            const bool is_larger =
+                found->element == NULL || element->peak_force > found->element->peak_force;
+            if (strcmp(element->name, where) != 0 || !is_larger)
+                continue;
+            found->element = element;
+            found->interface[0] = i;
+        }
+}
+
+CzWhere cz_where_find(const CzRunSummary *run, const char *where) {
+    CzWhere found = {.vehicle = -1, .interface = {-1, -1}};
+    for (int i = 0; i < run->n_interface; i++)
+        if (cz_where_begins(where, run->interface[i].name))
+            found.interface[0] = i;
+    if (found.interface[0] < 0)
+        find_element(run, where, &found);
+    if (found.interface[0] >= 0 || (found.vehicle = cz_where_vehicle(run, where)) < 0)
+        return found;
+    const char *end = where + strlen(run->vehicle[found.vehicle].name);
+    const int ahead = found.vehicle < run->n_interface ? found.vehicle : -1;
+    const bool is_front = strcmp(end, " front") == 0, is_whole = *end == '\0';
+    found.interface[0] = is_front ? ahead : found.vehicle - 1;
+    found.interface[1] = is_whole ? ahead : -1;
+    if (found.interface[0] < 0) {
+        found.interface[0] = found.interface[1];
+        found.interface[1] = -1;
+    }
+    return found;
+}
+
 bool cz_matches(const char *pattern, const char *text) {
     const char *star = NULL, *resume = NULL;
     while (*text != '\0') {

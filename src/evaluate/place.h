@@ -69,6 +69,17 @@ static inline int cz_where_vehicle(const CzRunSummary *run, const char *where) {
     return -1;
 }
 
+/* What the name of a place leads to in a run. */
+typedef struct CzWhere {
+    int vehicle;      /* of a vehicle, a section or a part of one; -1 for none */
+    int interface[2]; /* behind and ahead of a vehicle; else the first one only; -1 for none */
+    const CzElementResult *element; /* of the equal couplers at both ends of a vehicle the one with
+                                       the larger force; NULL for none */
+} CzWhere;
+
+/* A vehicle at the rear has the interface ahead of it first; the run as a whole has none. */
+CzWhere cz_where_find(const CzRunSummary *run, const char *where);
+
 /* Whether a text matches a pattern in which `*` stands for any text and `?` for any letter. */
 bool cz_matches(const char *pattern, const char *text);
 

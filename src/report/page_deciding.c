@@ -40,18 +40,10 @@ static CzChart chart_of(const CzMetricKind *kind) {
 
 /* ---- the place ---- */
 
-/* The interface of an interface, an element or a section. */
+/* The interface of a place, ahead of a vehicle. */
 static int interface_of(const CzRunSummary *run, const char *where) {
-    for (int i = 0; i < run->n_interface; i++) {
-        if (cz_where_begins(where, run->interface[i].name))
-            return i;
-        for (int e = 0; e < run->interface[i].n_element; e++)
-            if (strcmp(where, run->interface[i].element[e].name) == 0)
-                return i;
-    }
-    const int vehicle = cz_where_vehicle(run, where);
-    const int found = vehicle - (strstr(where, " rear") != NULL);
-    return vehicle >= 0 && found < run->n_interface ? found : -1;
+    const CzWhere found = cz_where_find(run, where);
+    return found.interface[found.interface[1] >= 0];
 }
 
 /* Finds the figure of a check on the page of its scenario; false where there is none. */

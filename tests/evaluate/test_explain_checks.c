@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "evaluate/explained_problem.h"
+#include "evaluate/place.h"
 
 /* Explains a text, all failing checks or one; returns the status. */
 static CzStatus explain(const char *text, const char *check, Case *made, CzError *error) {
@@ -316,6 +317,37 @@ static void numbers_of_an_obstacle_are_not_changed(void **state) {
     end(&made);
 }
 
+/* ---- places ---- */
+
+/* Three cars; that in the middle has a coupler in both interfaces. */
+static void a_place_leads_to_its_vehicle_interfaces_and_element(void **state) {
+    (void)state;
+    const struct {
+        const char *where;
+        int vehicle, behind, ahead;
+        double force; /* of the element; 0 for none */
+    } expected[] = {
+        {"A1-A2", -1, 0, -1, 0},      {"A2-A3", -1, 1, -1, 0}, {"coupler A2", -1, 1, -1, 9},
+        {"coupler A1", -1, 0, -1, 5}, {"A2", 1, 0, 1, 0},      {"A2 front", 1, 1, -1, 0},
+        {"A2 rear", 1, 0, -1, 0},     {"A1", 0, 0, -1, 0},     {"A3", 2, 1, -1, 0},
+        {"A1 front", 0, 0, -1, 0},    {"", -1, -1, -1, 0},     {"A22", -1, -1, -1, 0}};
+    static CzInterfaceResult interface[] = {
+        {.name = "A1-A2",
+         .n_element = 2,
+         .element = {{.name = "coupler A1", .peak_force = 5}, {.name = "coupler A2"}}},
+        {.name = "A2-A3", .n_element = 1, .element = {{.name = "coupler A2", .peak_force = 9}}}};
+    static const CzVehicleResult vehicle[] = {{.name = "A1"}, {.name = "A2"}, {.name = "A3"}};
+    const CzRunSummary run = {
+        .n_interface = 2, .interface = interface, .n_vehicle = 3, .vehicle = vehicle};
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
+        const CzWhere found = cz_where_find(&run, expected[i].where);
+        assert_int_equal(found.vehicle, expected[i].vehicle);
+        assert_int_equal(found.interface[0], expected[i].behind);
+        assert_int_equal(found.interface[1], expected[i].ahead);
+        assert_near(found.element != NULL ? found.element->peak_force : 0, expected[i].force, 0, 0);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(failing_checks_are_explained_once),
@@ -333,6 +365,7 @@ int main(void) {
         cmocka_unit_test(a_wheel_lift_is_at_its_time),
         cmocka_unit_test(survival_space_is_explained_at_its_vehicle),
         cmocka_unit_test(numbers_of_an_obstacle_are_not_changed),
+        cmocka_unit_test(a_place_leads_to_its_vehicle_interfaces_and_element),
     };
     return cmocka_run_group_tests(tests, make_light, free_light);
 }

@@ -71,38 +71,71 @@ static CzStatus append_in_scenarios(CzChecklistBuilder *builder, CzCheck check,
     return CZ_OK;
 }
 
-/* Adds a limit as one or two checks. `profile` is NULL for the user's own. */
-static CzStatus append_limit(CzChecklistBuilder *builder, const CzLimit *limit, const char *profile,
-                             bool is_target) {
+/* A value of an override where it is given. */
+static double over_or(double over, double value) {
+    return isnan(over) ? value : over;
+}
+
+/* Adds a limit as one or two checks, with the numbers of an override. `profile` is NULL for the
+ * user's own. */
+static CzStatus append_overridden(CzChecklistBuilder *builder, const CzLimit *limit,
+                                  const CzOverride *over, const char *profile, bool is_target) {
     CzCheck check = {.name = limit->name,
                      .profile = profile,
                      .clause = limit->clause,
-                     .source = limit->source,
-                     .confidence = limit->confidence,
+                     .source = over->source != NULL ? over->source : limit->source,
+                     .confidence = over->confidence != NULL ? over->confidence : limit->confidence,
                      .is_target = is_target};
+    const double scale = over_or(over->scale, limit->scale);
     if (check.confidence == NULL && profile == NULL)
         check.confidence = "user";
     check.is_provisional = cz_is_unconfirmed(check.confidence);
     CZ_TRY(cz_problem_place_failure(builder->problem, &limit->metric,
                                     cz_metric_parse(limit->metric, &check.metric, builder->error),
                                     builder->error));
-    check.scale = isnan(limit->scale) || check.metric.kind->scale == CZ_FLAG_SCALE
+    check.scale = isnan(scale) || check.metric.kind->scale == CZ_FLAG_SCALE
                       ? check.metric.kind->scale
-                      : limit->scale;
+                      : scale;
     for (int side = 0; side < 2; side++) {
         check.is_minimum = side == 1;
-        check.limit = side == 1 ? limit->min : limit->max;
+        check.limit = side == 1 ? over_or(over->min, limit->min) : over_or(over->max, limit->max);
         if (!isnan(check.limit))
             CZ_TRY(append_in_scenarios(builder, check, limit));
     }
     return CZ_OK;
 }
 
-/* A limit of the file. One with the name of a design rule would be a second check of that name. */
+/* A limit as it is written; those of the profile have their overrides already. */
+static CzStatus append_limit(CzChecklistBuilder *builder, const CzLimit *limit, const char *profile,
+                             bool is_target) {
+    const CzOverride none = {.max = NAN, .min = NAN, .scale = NAN};
+    return append_overridden(builder, limit, &none, profile, is_target);
+}
+
+/* A limit of the file, with its override. */
+static CzStatus append_file_limit(CzChecklistBuilder *builder, const CzLimit *limit) {
+    const CzChecks *checks = &cz_problem_input(builder->problem)->checks;
+    const int i = CZ_FIND_NAMED(limit->name, CzOverride, checks->override, checks->n_override,
+                                &(CzSuggestion){0});
+    if (i < 0)
+        return append_limit(builder, limit, NULL, false);
+    const CzOverride *written = &checks->override[i];
+    CzOverride over = *written;
+    const bool lacks_max = !isnan(over.max) && isnan(limit->max);
+    if (lacks_max || (!isnan(over.min) && isnan(limit->min)))
+        return cz_problem_fail(builder->problem, lacks_max ? &written->max : &written->min,
+                               builder->error, "limit '%s' is %s limit: write '%s'", limit->name,
+                               lacks_max ? "a lower" : "an upper", lacks_max ? "min" : "max");
+    if (over.confidence == NULL)
+        over.confidence = "user";
+    return append_overridden(builder, limit, &over, NULL, false);
+}
+
+/* One with the name of a design rule would be a second check of that name. */
 static CzStatus append_own_limit(CzChecklistBuilder *builder, const CzLimit *limit,
                                  bool has_rules) {
     if (!has_rules || !cz_design_rule_is(limit->name, &(CzSuggestion){0}))
-        return append_limit(builder, limit, NULL, false);
+        return append_file_limit(builder, limit);
     cz_fail(builder->error, CZ_STATUS_INPUT, "there is a design rule '%s'", limit->name);
     cz_error_help(builder->error,
                   "change its number by 'override' in 'checks', or choose another name");
@@ -215,7 +248,8 @@ static CzStatus check_overrides_exist(const CzChecklistBuilder *builder, bool ha
     for (int i = 0; i < checks->n_override; i++) {
         const char *name = checks->override[i].name;
         CzSuggestion nearest = {0};
-        if ((profile != NULL &&
+        if (CZ_FIND_NAMED(name, CzLimit, checks->limits, checks->n_limits, &nearest) >= 0 ||
+            (profile != NULL &&
              (CZ_FIND_NAMED(name, CzLimit, profile->limits, profile->n_limits, &nearest) >= 0 ||
               cz_profile_has_scenario(profile, name, &nearest))) ||
             (has_rules && cz_design_rule_is(name, &nearest)))

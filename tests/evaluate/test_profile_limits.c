@@ -63,6 +63,20 @@ static void an_override_acts_as_the_number_in_the_profile(void **state) {
     end(&in_profile);
 }
 
+/* Also one of the file, whose place in messages stays. */
+static void an_override_reaches_a_limit_of_the_file(void **state) {
+    (void)state;
+#define OWN "limits: [{name: own, metric: interfaces.peak_force_kN, max: 9000, confidence: M2}]"
+    Case before = judge(9000, 2000, "checks: {profile: mine, " OWN "}\n");
+    Case over =
+        judge(9000, 2000, "checks: {profile: mine, override: {own: {max: 100}}, " OWN "}\n");
+    assert_int_equal(find(&before, "own", "buffing")->verdict, CZ_VERDICT_PROVISIONAL);
+    assert_int_equal(count_changed(&before, &over, "own"), 4); /* all but overload */
+    assert_near(find(&over, "own", "crash")->limit, 100, 0, 0);
+    end(&over);
+    end(&before);
+}
+
 /* A rule of the design has its physical limit too, which an override does not tighten. */
 static void an_override_reaches_one_design_rule(void **state) {
     (void)state;
@@ -154,6 +168,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_limit_changes_only_its_own_verdicts),
         cmocka_unit_test(an_override_acts_as_the_number_in_the_profile),
+        cmocka_unit_test(an_override_reaches_a_limit_of_the_file),
         cmocka_unit_test(an_override_reaches_one_design_rule),
         cmocka_unit_test(a_pass_in_an_unconfirmed_scenario_is_provisional),
         cmocka_unit_test(a_scenario_that_is_left_out_is_one_line),

@@ -84,11 +84,11 @@ typedef struct CzInterfaceResult {
     char name[CZ_INTERFACE_ROOM]; /* "A4-B1" */
     double peak_force;            /* largest total longitudinal force over all steps [N] */
     double peak_time;             /* [s] */
-    double peak_force_cfc180; /* largest force through a filter CFC 180, every step counted [N];
-                                 NaN without pulses, and where the time step is too long */
-    double shortening;        /* largest closure between the bodies at this interface [m] */
-    double energy;            /* dissipated [J] */
-    double energy_share;      /* of the dissipated energy [-] */
+    double peak_force_cfc180;     /* largest force through a filter CFC 180, every step counted [N];
+                                     NaN without pulses, and where the time step is too long */
+    double shortening;            /* largest closure between the bodies at this interface [m] */
+    double energy;                /* dissipated [J] */
+    double energy_share;          /* of the dissipated energy [-] */
     bool bottomed_out;
     double section_force[2]; /* largest force through the section behind the end, rear vehicle's and
                                 front vehicle's [N] */

@@ -27,8 +27,9 @@ static bool may_pass_its_kind(const Facing *facing) {
  * would slide. `swing` is the largest angle of its line against that end [rad]. */
 static bool coupler_slides(const Facing *facing, double swing) {
     const double friction = facing->opposite->face_friction;
+    const double slope = swing * (1.0 + swing * swing / 3.0); /* of a small angle */
     return cz_part_strikes(facing->end, CZ_PART_COUPLER, facing->opposite, facing->rise) &&
-           tan(swing) > (isnan(friction) ? STEEL_ON_STEEL : friction);
+           slope > (isnan(friction) ? STEEL_ON_STEEL : friction);
 }
 
 bool cz_contact_is_unfollowed(const CzPlace *place) {

@@ -11,9 +11,11 @@
 /* ---- contact windows ---- */
 
 double cz_pulse_largest_force(const CzPulse *pulse) {
+    const double *force = pulse->force;
     double peak = 0.0;
+#pragma omp simd reduction(max : peak)
     for (int i = 0; i < pulse->n_step; ++i)
-        peak = fabs(pulse->force[i]) > peak ? fabs(pulse->force[i]) : peak;
+        peak = fabs(force[i]) > peak ? fabs(force[i]) : peak;
     return peak;
 }
 

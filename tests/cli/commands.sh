@@ -47,7 +47,7 @@ bad_profile() {
 }
 check "a profile without a source is refused with its place" bad_profile
 bad_metric() {
-    sed 's/vehicles.flange_share /vehicles.flange_shore /' "$SOURCE/problems/profiles/collision-limits.yaml" >profiles/metric.yaml &&
+    sed 's/vehicles.flange_share /vehicles.flange_shore /; s/^name: .*/name: metric/' "$SOURCE/problems/profiles/collision-limits.yaml" >profiles/metric.yaml &&
         printf 'extends: %s/problems/wall.yaml\nchecks: {profile: metric}\n' "$SOURCE" >metric.yaml &&
         exits 2 "$C" validate metric.yaml -q && grep -q "profiles/metric.yaml:[0-9]*:5: error: there is no metric 'vehicles.flange_shore'" err.txt
 }

@@ -17,35 +17,23 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "evaluate/candidate_changes.h"
+#include "evaluate/candidate_runs.h"
 #include "evaluate/climbing.h"
 #include "evaluate/explain_parts.h"
-#include "evaluate/tasks.h"
-#include "simulate/batch.h"
 
 /* Steps of the list, as changes relative to the value (ours). */
 static const double up[] = {0.05, 0.1, 0.2, 0.5, 1, 3, 9};
 static const double down[] = {-0.05, -0.1, -0.2, -0.35, -0.5, -0.75, -0.9};
 enum {
     N_STEP = sizeof up / sizeof up[0],
-    N_BETWEEN = 7,  /* values tried between two steps */
-    MOST_WIDTH = 64 /* designs of a batch */
+    N_BETWEEN = 7 /* values tried between two steps */
 };
-
-/* One change of one value, and its margin. */
-typedef struct Candidate {
-    int kind;
-    double change, value;
-    double margin; /* NaN when it is not valid in a file, or its run failed */
-} Candidate;
 
 typedef struct Search {
     const CzEvaluator *evaluator;
     const CzExplainOptions *options;
     CzClimbing climbing;
     bool is_broken; /* the verdict to be changed */
-    int n_candidate;
-    Candidate *candidate; /* of the round (n_candidate) */
-    int width;            /* designs of a batch */
     long n_run;
     int n_all; /* largest number of candidates of all rounds */
 } Search;
@@ -54,75 +42,10 @@ CzExplainOptions cz_explain_options_default(void) {
     return (CzExplainOptions){.search = true};
 }
 
-/* ---- running candidates ---------------------------------------------------------------------- */
-
-static bool is_stopped(const CzExplainOptions *options) {
-    return options->stop != NULL && *options->stop != 0;
-}
-
-/* Runs the candidates of a batch that are valid in a problem file; `vehicles` has room for all. */
-static CzStatus run_batch(const Search *search, Candidate *candidate, int n, CzVehicle *vehicles,
-                          CzError *error) {
-    const CzEvaluator *evaluator = search->evaluator;
-    const size_t n_vehicle = (size_t)evaluator->n_vehicle;
-    const CzModel *model = evaluator->model[search->climbing.scenario];
-    CzPlannedRun design[MOST_WIDTH];
-    CzRun *run[MOST_WIDTH] = {NULL};
-    Candidate *of_design[MOST_WIDTH];
-    int n_design = 0;
-    for (int i = 0; i < n; i++) {
-        CzVehicle *own = vehicles + (size_t)n_design * n_vehicle;
-        memcpy(own, cz_vehicles_in(evaluator, evaluator->vehicles, search->climbing.scenario),
-               n_vehicle * sizeof *own);
-        candidate[i].value =
-            cz_candidate_apply(candidate[i].kind, candidate[i].change, own, evaluator->n_vehicle);
-        candidate[i].margin = NAN;
-        if (cz_problem_check_vehicles(evaluator->problem, own, NULL) != CZ_OK)
-            continue;
-        of_design[n_design] = &candidate[i];
-        design[n_design++] = (CzPlannedRun){model, own};
-    }
-    CzSimulateOptions options = cz_simulate_options_default();
-    options.record = false;
-    options.track = CZ_TRACK_USE_SEARCH;
-    options.brief = true; /* an override occurs long before all wheels are at rest */
-    const CzStatus status =
-        n_design > 0 ? cz_simulate_batch(n_design, design, &options, run, error) : CZ_OK;
-    for (int i = 0; i < n_design; i++) {
-        if (status == CZ_OK)
-            of_design[i]->margin = cz_climbing_judge(&search->climbing, evaluator,
-                                                     design[i].vehicles, cz_run_summary(run[i]))
-                                       .margin;
-        cz_run_free(run[i]);
-    }
-    return status;
-}
-
-static CzStatus run_task(int index, void *data, CzError *error) {
-    Search *search = data;
-    const int first = index * search->width;
-    const int left = search->n_candidate - first;
-    const int n = left < search->width ? left : search->width;
-    if (is_stopped(search->options))
-        return cz_fail(error, CZ_STATUS_INTERRUPTED, "the search was interrupted");
-    CzVehicle *vehicles =
-        malloc((size_t)n * (size_t)search->evaluator->n_vehicle * sizeof *vehicles);
-    const CzStatus status = vehicles != NULL
-                                ? run_batch(search, &search->candidate[first], n, vehicles, error)
-                                : cz_no_memory(error, "the designs");
-    free(vehicles);
-    return status;
-}
-
 /* Runs a round of candidates. */
-static CzStatus run_round(Search *search, Candidate *candidate, int n, CzError *error) {
-    const int width = cz_simulate_batch_width(search->evaluator->model[search->climbing.scenario]);
-    search->width = width < MOST_WIDTH ? width : MOST_WIDTH;
-    search->candidate = candidate;
-    search->n_candidate = n;
-    const CzStatus status =
-        cz_tasks_run(&search->evaluator->executor, (n + search->width - 1) / search->width,
-                     run_task, search, error);
+static CzStatus run_round(Search *search, CzCandidate *candidate, int n, CzError *error) {
+    const CzStatus status = cz_candidates_run(search->evaluator, &search->climbing,
+                                              search->options->stop, n, candidate, error);
     search->n_run += n;
     if (search->options->progress != NULL)
         search->options->progress((int)search->n_run, search->n_all,
@@ -147,7 +70,7 @@ static bool is_better(const Search *search, double margin, double than) {
 
 /* Finds the smallest change that changes the verdict among candidates in one direction, in order of
  * size, after `start`, which does not. */
-static void find_change(const Search *search, const Candidate *candidate, int n, double start,
+static void find_change(const Search *search, const CzCandidate *candidate, int n, double start,
                         CzCandidateChange *varied) {
     double last = start;
     for (int i = 0; i < n; i++) {
@@ -172,7 +95,7 @@ static void find_change(const Search *search, const Candidate *candidate, int n,
 /* Tries the steps of every value, up and down. */
 static CzStatus try_steps(Search *search, int n, const int *kind, CzCandidateChange *varied,
                           CzError *error) {
-    Candidate *candidate = calloc((size_t)n * 2 * N_STEP + 1, sizeof *candidate);
+    CzCandidate *candidate = calloc((size_t)n * 2 * N_STEP + 1, sizeof *candidate);
     if (candidate == NULL)
         return cz_no_memory(error, "the candidate changes");
     for (int i = 0; i < n * 2 * N_STEP; i++) {
@@ -190,7 +113,7 @@ static CzStatus try_steps(Search *search, int n, const int *kind, CzCandidateCha
 /* Tries values between the steps where the verdict changes. */
 static CzStatus refine(Search *search, int n, const int *kind, CzCandidateChange *varied,
                        CzError *error) {
-    Candidate *candidate = calloc((size_t)n * N_BETWEEN + 1, sizeof *candidate);
+    CzCandidate *candidate = calloc((size_t)n * N_BETWEEN + 1, sizeof *candidate);
     int *of = calloc((size_t)n + 1, sizeof *of);
     int n_turning = 0;
     CzStatus status = CZ_OK;
@@ -201,7 +124,7 @@ static CzStatus refine(Search *search, int n, const int *kind, CzCandidateChange
             continue;
         const double from = varied[i].not_yet, range = varied[i].change - from;
         for (int k = 0; k < N_BETWEEN; k++) {
-            Candidate *next = &candidate[n_turning * N_BETWEEN + k];
+            CzCandidate *next = &candidate[n_turning * N_BETWEEN + k];
             next->kind = kind[i];
             next->change = from + range * (k + 1) / (N_BETWEEN + 1);
         }
@@ -212,7 +135,7 @@ static CzStatus refine(Search *search, int n, const int *kind, CzCandidateChange
     for (int i = 0; status == CZ_OK && i < n_turning; i++) {
         CzCandidateChange *found = &varied[of[i]];
         const double before = found->not_yet;
-        const Candidate *between = &candidate[i * N_BETWEEN];
+        const CzCandidate *between = &candidate[i * N_BETWEEN];
         find_change(search, between, N_BETWEEN, before, found);
         if (found->not_yet == before && found->change != between[0].change)
             found->not_yet = between[N_BETWEEN - 1].change; /* only the step itself changed it */

@@ -19,6 +19,7 @@ set(CZ_SOURCES_evaluate
     force_order.c
     activation.c
     candidate_changes.c
+    candidate_runs.c
     case_names.c
     cases.c
     listed.c

@@ -28,15 +28,17 @@ typedef enum CzStudyNumber {
     CZ_STUDY_OF_RUNS,
     CZ_STUDY_OF_SAMPLES,
     CZ_STUDY_OF_POINTS,
+    CZ_STUDY_OF_CANDIDATES,
     CZ_STUDY_OF_CHALLENGE,
     CZ_STUDY_OF_CORRIDOR,
     CZ_N_STUDY_KIND
 } CzStudyNumber;
-extern const CzStudyKind cz_study_of_runs;      /* runs.c */
-extern const CzStudyKind cz_study_of_samples;   /* sampling.c */
-extern const CzStudyKind cz_study_of_points;    /* sweep.c */
-extern const CzStudyKind cz_study_of_challenge; /* optimise/challenge_study.c */
-extern const CzStudyKind cz_study_of_corridor;  /* optimise/corridor_study.c */
+extern const CzStudyKind cz_study_of_runs;       /* runs.c */
+extern const CzStudyKind cz_study_of_samples;    /* sampling.c */
+extern const CzStudyKind cz_study_of_points;     /* sweep.c */
+extern const CzStudyKind cz_study_of_candidates; /* candidate_runs.c */
+extern const CzStudyKind cz_study_of_challenge;  /* optimise/challenge_study.c */
+extern const CzStudyKind cz_study_of_corridor;   /* optimise/corridor_study.c */
 
 /* A study of this process, which the workers of its executor get to know with its first batch. */
 typedef struct CzStudy {

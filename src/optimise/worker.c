@@ -11,6 +11,7 @@ static const CzStudyKind *const kinds[CZ_N_STUDY_KIND] = {
     [CZ_STUDY_OF_RUNS] = &cz_study_of_runs,
     [CZ_STUDY_OF_SAMPLES] = &cz_study_of_samples,
     [CZ_STUDY_OF_POINTS] = &cz_study_of_points,
+    [CZ_STUDY_OF_CANDIDATES] = &cz_study_of_candidates,
     [CZ_STUDY_OF_CHALLENGE] = &cz_study_of_challenge,
     [CZ_STUDY_OF_CORRIDOR] = &cz_study_of_corridor};
 

@@ -62,6 +62,8 @@ static void put_step(CzMemoryText *bytes, const CzProblem *problem) {
         put_settings(bytes, problem);
     else if (problem->step == CZ_STEP_CASES)
         put_cases(bytes, problem);
+    else /* a worker cannot take this step: the owner runs all tasks */
+        bytes->failed = true;
 }
 
 void cz_problem_put(CzMemoryText *bytes, const CzProblem *problem) {

@@ -82,6 +82,7 @@ prints_the_same() { # prints_the_same COMMAND...
 }
 check "a verification in 2 ranks is that of threads" prints_the_same verify two-trains.yaml
 check "so is an explanation" prints_the_same explain two-trains.yaml
+check "so is one of an override, whose numbers are made variables" prints_the_same explain "$SOURCE/problems/two-cars-25kmh.yaml"
 check "a fit in 2 ranks ends in the bytes of one thread" same 2 optimise "$SOURCE/problems/paper-25kmh-identify.yaml" --evaluations 20
 check "a mistake in the file is reported once, with exit code 2" sh -c "
     mpirun --quiet --oversubscribe --allow-run-as-root -n 2 '$ranked' check missing.yaml >out.txt 2>err.txt

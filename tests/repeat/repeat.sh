@@ -10,8 +10,8 @@ build() { # build FOLDER OPTION...
 build_clang() { # as scripts/run-tests configures it
     (cd "$SOURCE" && cmake --preset clang -DCZ_BUILD_TESTS=ON && cmake --build --preset clang --target crushzone-program)
 }
-# Compared problems: two full cars, rigid cars in a search, a wall, two cars on the receptance track, and
-# two seconds of two trains of six full cars; wall and trains are on the modal track.
+# Compared problems: two full cars, rigid cars in a search, a wall, two cars on the receptance and on the modal track, and
+# two seconds of two trains of six full cars.
 results() { # results FOLDER PROGRAM OPTION...: what the program writes, into FOLDER, run_info taken out
     folder=$1
     program=$2
@@ -22,6 +22,8 @@ results() { # results FOLDER PROGRAM OPTION...: what the program writes, into FO
         "$program" run "$SOURCE/problems/wall.yaml" --json -o "$folder/wall" "$@" >"$folder/wall.json" &&
         "$program" run "$SOURCE/problems/paper-25kmh.yaml" --json -o "$folder/paper" --set simulation.track=receptance \
             "$@" >"$folder/paper.json" &&
+        "$program" run "$SOURCE/problems/paper-25kmh.yaml" --json -o "$folder/modal" --set simulation.track=modal \
+            "$@" >"$folder/modal.json" &&
         "$program" run "$SOURCE/problems/metro-6-car.yaml" --scenario 25-km-h-partner-high --set simulation.duration_s=2 \
             --json -o "$folder/metro" "$@" >"$folder/metro.json" &&
         "$program" optimise search.yaml --evaluations 60 --json -o "$folder/search" "$@" >"$folder/search.json"

@@ -6,12 +6,14 @@
 
 static const char file[] = "problems/two-cars-25kmh.yaml";
 
-/* The file with settings. */
+/* The file with settings, up to 0.5 s: all events but the stop of rolling cars are before. */
 static Case begin(const char *over) {
     Case made = {0};
     CzError error = {0};
     char text[512];
-    const int n = snprintf(text, sizeof text, "extends: two-cars-25kmh.yaml\n%s\n", over);
+    const int n =
+        snprintf(text, sizeof text,
+                 "extends: two-cars-25kmh.yaml\nsimulation: {duration_ms: 500}\n%s\n", over);
     assert_int_equal(
         cz_problem_read_text(text, (size_t)n, "over.yaml", "problems", NULL, &made.problem, &error),
         CZ_OK);
@@ -48,10 +50,10 @@ static const CzCandidateChange *lever_of(const CzExplanation *explanation, const
 
 /* Whether no vehicle climbs at a height of the links, by a sweep over the file's own path. */
 static bool holds_with_link_height(double height) {
-    static const char *const setting = "trains.A.speed_km_h=45";
+    static const char *const set[] = {"trains.A.speed_km_h=45", "simulation.duration_ms=500"};
     CzProblemOptions problem_options = cz_problem_options_default();
-    problem_options.set = &setting;
-    problem_options.n_set = 1;
+    problem_options.set = set;
+    problem_options.n_set = 2;
     const CzSweepAxis axis = {
         .path = "parts.bogie.link.height_mm", .from = height, .to = height, .n = 2};
     CzSweepOptions options = cz_sweep_options_default();

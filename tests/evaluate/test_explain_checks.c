@@ -48,6 +48,9 @@ static const CzElementState *state_of(const CzExplainedCheck *check, const char 
     return NULL;
 }
 
+/* Two cars up to 0.5 s: all of their events but the stop of rolling cars are before. */
+#define CARS "extends: two-cars-25kmh.yaml\nsimulation: {duration_ms: 500}\n"
+
 static double sum_of_shares(const CzExplainedCheck *check) {
     double sum = 0;
     for (int i = 0; i < check->n_carrier; i++)
@@ -250,8 +253,7 @@ static void an_unknown_check_is_refused_with_the_nearest_name(void **state) {
  * shear-off, which no run decides. */
 static void a_rule_of_the_design_has_changes_but_no_time(void **state) {
     (void)state;
-    Case made = explained("extends: two-cars-25kmh.yaml\n"
-                          "parts: {front-coupler: {shear_off: {force_kN: 620}}}\n",
+    Case made = explained(CARS "parts: {front-coupler: {shear_off: {force_kN: 620}}}\n",
                           "tube force / shear-off force");
     const CzExplainedCheck *check = find(&made, "tube force / shear-off force");
     assert_int_equal(check->check.verdict, CZ_VERDICT_FAIL);
@@ -277,9 +279,8 @@ static void a_service_rule_is_at_the_largest_force(void **state) {
 
 static void a_wheel_lift_is_at_its_time(void **state) {
     (void)state;
-    Case made = explained("extends: two-cars-25kmh.yaml\n"
-                          "trains: [{name: A, speed_km_h: 45}]\n",
-                          "wheel lift / flange height");
+    Case made =
+        explained(CARS "trains: [{name: A, speed_km_h: 45}]\n", "wheel lift / flange height");
     const CzExplainedCheck *check = find(&made, "wheel lift / flange height");
     assert_int_equal(check->check.verdict, CZ_VERDICT_FAIL);
     assert_near(check->time[0], check->check.when[0], 0, 0);
@@ -291,11 +292,10 @@ static void a_wheel_lift_is_at_its_time(void **state) {
 
 static void survival_space_is_explained_at_its_vehicle(void **state) {
     (void)state;
-    Case made = explained(
-        "extends: two-cars-25kmh.yaml\n"
-        "trains: [{name: A, speed_km_h: 45}, {name: B, speed_km_h: -45}]\n"
-        "checks: {limits: [" LIMIT("space", "vehicles.survival_shortening_mm", "max: 1") "]}\n",
-        "space");
+    Case made = explained(CARS "trains: [{name: A, speed_km_h: 45}, {name: B, speed_km_h: -45}]\n"
+                               "checks: {limits: [" LIMIT(
+                                   "space", "vehicles.survival_shortening_mm", "max: 1") "]}\n",
+                          "space");
     const CzExplainedCheck *check = find(&made, "space");
     assert_int_equal(check->check.verdict, CZ_VERDICT_FAIL);
     assert_string_equal(check->interface, "A1-B1");

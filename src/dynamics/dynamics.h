@@ -144,14 +144,13 @@ typedef struct CzBlock {
     int couplers_rest;    /* the last evaluation of the couplers changed nothing */
     int faces_rest;       /* likewise for the faces */
     int has_looked;       /* rows of the cars ahead have been read */
-    int leaves_nothing_out;   /* evaluates couplers and faces even where that changes nothing, for
-                                 comparison in tests */
-    CzBudgetRows *budget_sum; /* sum of the records below over all steps, times the step */
-    CzBudgetRows *budget;     /* records of the sources of forces; NULL when not requested */
-    CzMemory *memory;         /* committed */
-    CzMemory *next_memory;    /* of the last evaluation */
-    CzPower *power;           /* of the last evaluation [W] */
-    CzPower *last_power;      /* committed */
+    int leaves_nothing_out; /* evaluates couplers and faces even where that changes nothing, for
+                               comparison in tests */
+    CzBudgetRows *budget;   /* impulses by the sources of forces; NULL when not requested */
+    CzMemory *memory;       /* committed */
+    CzMemory *next_memory;  /* of the last evaluation */
+    CzPower *power;         /* of the last evaluation [W] */
+    CzPower *last_power;    /* committed */
 } CzBlock;
 
 typedef struct CzDynamics {

@@ -124,17 +124,27 @@ static void evaluate_interfaces(const CzDynamics *dynamics, int index, double st
         draw_gears(d);
 }
 
+/* Evaluates the bogies of a block for a budget. */
+static void note_bogies(CzBlock *d, double step) {
+    OfBogies of = {0};
+    for (int bogie = 0; bogie < 2; ++bogie) {
+        const CzPlane before = d->force.body;
+        bogie_to_body(d, bogie);
+        note_bogie(d, bogie, &before, &of);
+    }
+    add_bogies(d->budget, &of, step);
+}
+
 /* Evaluates the cars of a block. */
 static void evaluate_cars(const CzDynamics *dynamics, int index, double step) {
     CzBlock *d = &dynamics->block[index];
     for (int end = 0; end < 2; ++end)
-        vehicle_end(d, end);
-    for (int bogie = 0; bogie < 2; ++bogie) {
-        const CzPlane before = d->force.body;
-        bogie_to_body(d, bogie);
-        if (d->budget != NULL)
-            note_bogie(d, bogie, &before);
-    }
+        vehicle_end(d, end, step);
+    if (d->budget != NULL)
+        note_bogies(d, step);
+    else
+        for (int bogie = 0; bogie < 2; ++bogie)
+            bogie_to_body(d, bogie);
     for (int axle = 0; axle < 4; ++axle)
         axle_to_bogie(d, axle);
     const bool elastic = is_elastic(dynamics);
@@ -153,8 +163,6 @@ static void evaluate_cars(const CzDynamics *dynamics, int index, double step) {
 /* Evaluations of a block before its interfaces. */
 static void begin_block(const CzDynamics *dynamics, CzBlock *d) {
     clear(dynamics, d);
-    if (d->budget != NULL)
-        clear_rows(d->budget, sizeof *d->budget);
     if (dynamics->lanes->has.full_cars)
         rotations(d);
 }

@@ -125,10 +125,10 @@ static void put_drop(CzBlock *d, const Contact *restrict contact, const ChainSta
 
 /* Records for a budget the force, and its points of action relative to the end masses. */
 static void note_faces(CzBudgetRows *budget, const Contact *contact) {
-    memcpy(budget->face_x, contact->force_x, sizeof(CzRow));
-    memcpy(budget->face_z, contact->force_z, sizeof(CzRow));
-    memcpy(budget->face_arm_x, contact->arm_x, sizeof contact->arm_x);
-    memcpy(budget->face_arm_z, contact->arm_z, sizeof contact->arm_z);
+    memcpy(budget->face.x, contact->force_x, sizeof(CzRow));
+    memcpy(budget->face.z, contact->force_z, sizeof(CzRow));
+    memcpy(budget->face.arm_x, contact->arm_x, sizeof contact->arm_x);
+    memcpy(budget->face.arm_z, contact->arm_z, sizeof contact->arm_z);
 }
 
 #endif

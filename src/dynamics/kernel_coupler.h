@@ -98,7 +98,7 @@ static void push_couplers(CzBlock *d, const CzCarrier car[2], const CouplerLine 
     for (int side = 0; side < 2; ++side) {
         put_coupler(d, side, line, &forces);
         if (d->budget != NULL)
-            note_coupler(d, side, line, &forces);
+            note_coupler(d, side, line, &forces, step);
     }
 }
 

@@ -218,9 +218,9 @@ static void put_coupler(CzBlock *d, int side, const CouplerLine *restrict line,
     }
 }
 
-/* Records for a budget the forces of strut and hinges on the body of one side. */
+/* Adds to a budget the forces of strut and hinges on the body of one side. */
 static void note_coupler(CzBlock *d, int side, const CouplerLine *restrict line,
-                         const CouplerForces *restrict forces) {
+                         const CouplerForces *restrict forces, double step) {
     const double *restrict on_end = d->parameter.coupler.side[side].on_end;
     const double *restrict own = forces->moment[side];
     const double sign = side == 0 ? -1.0 : 1.0;
@@ -232,10 +232,10 @@ static void note_coupler(CzBlock *d, int side, const CouplerLine *restrict line,
             cz_push_at_centre(at, (CzPush){sign * forces->x[i], sign * forces->z[i], own[i]});
         const CzPush hinge = cz_push_at_centre(
             at, (CzPush){sign * forces->hinge_x[i], sign * forces->hinge_z[i], own[i]});
-        budget->hinge_lift[side][i] = on_body * hinge.z;
-        budget->hinge_moment[side][i] = on_body * hinge.pitch;
-        budget->coupler_lift[side][i] = on_body * all.z - on_body * hinge.z;
-        budget->coupler_moment[side][i] = on_body * all.pitch - on_body * hinge.pitch;
+        budget->hinge_lift[side][i] += step * (on_body * hinge.z);
+        budget->hinge_moment[side][i] += step * (on_body * hinge.pitch);
+        budget->coupler_lift[side][i] += step * (on_body * all.z - on_body * hinge.z);
+        budget->coupler_moment[side][i] += step * (on_body * all.pitch - on_body * hinge.pitch);
     }
 }
 

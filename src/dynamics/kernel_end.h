@@ -74,7 +74,7 @@ static void guide_end(CzBlock *d, int end, const EndLine *restrict line,
     }
 }
 
-static void vehicle_end(CzBlock *d, int end) {
+static void vehicle_end(CzBlock *d, int end, double step) {
     EndLine line;
     EndForces forces;
     line_up_end(d, end, &line);
@@ -82,7 +82,7 @@ static void vehicle_end(CzBlock *d, int end) {
     guide_end(d, end, &line, &forces);
     put_end(d, end, &line, &forces);
     if (d->budget != NULL)
-        note_end(d, end, &line, &forces);
+        note_end(d, end, &line, &forces, step);
 }
 
 #endif

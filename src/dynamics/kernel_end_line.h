@@ -77,9 +77,9 @@ static void put_end(CzBlock *d, int end, const EndLine *restrict line,
     }
 }
 
-/* Records for a budget the forces of crush zone and guidance on the body. */
+/* Adds to a budget the forces of crush zone and guidance on the body. */
 static void note_end(CzBlock *d, int end, const EndLine *restrict line,
-                     const EndForces *restrict forces) {
+                     const EndForces *restrict forces, double step) {
     const double sign = outwards(end);
     const CzTurned *restrict axis = &d->turned.body;
     const double *restrict force = d->published.end[end].force;
@@ -91,10 +91,10 @@ static void note_end(CzBlock *d, int end, const EndLine *restrict line,
             cz_push_at_centre(p, (CzPush){-(sign * force[i] * c), -(sign * force[i] * s), 0.0});
         const CzPush guide = cz_push_at_centre(
             p, (CzPush){-(forces->across[i] * s), forces->across[i] * c, forces->moment[i]});
-        budget->end_lift[end][i] = crush.z;
-        budget->end_moment[end][i] = crush.pitch;
-        budget->guide_lift[end][i] = guide.z;
-        budget->guide_moment[end][i] = guide.pitch;
+        budget->end_lift[end][i] += step * crush.z;
+        budget->end_moment[end][i] += step * crush.pitch;
+        budget->guide_lift[end][i] += step * guide.z;
+        budget->guide_moment[end][i] += step * guide.pitch;
     }
 }
 

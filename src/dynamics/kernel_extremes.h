@@ -174,16 +174,6 @@ static void add_work(CzBlock *d, size_t n, double step) {
     }
 }
 
-/* Adds the records for a budget. */
-static void add_budget(CzBlock *d, double step) {
-    const size_t n = sizeof(CzBudgetRows) / sizeof(double);
-    const double *restrict noted = (const double *)d->budget;
-    double *restrict sum = (double *)d->budget_sum;
-    _Pragma("omp simd") for (size_t i = 0; i < n; ++i) {
-        sum[i] += step * noted[i];
-    }
-}
-
 static void commit_block(const CzDynamics *dynamics, CzBlock *d, double step, double time) {
     add_work(d, dynamics->n_power, step);
     CzPower *const power = d->power;
@@ -193,8 +183,6 @@ static void commit_block(const CzDynamics *dynamics, CzBlock *d, double step, do
     d->memory = d->next_memory;
     d->next_memory = memory;
     extremes(dynamics->lanes, d, time);
-    if (d->budget != NULL)
-        add_budget(d, step);
 }
 
 #endif

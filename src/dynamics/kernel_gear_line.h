@@ -58,26 +58,43 @@ static inline void put_on_axle(CzWheelset *on, size_t i, CzPush push) {
     on->z[i] += push.z;
 }
 
-/* Records for a budget the forces of link, suspension and stops on the body: the present sum less
- * `before`. */
-static void note_bogie(CzBlock *d, int bogie, const CzPlane *restrict before) {
+/* Forces of links, suspensions and stops on the body. */
+typedef struct {
+    _Alignas(64) CzRow link_moment;
+    CzRow suspension_lift, suspension_moment;
+    CzRow stop_lift, stop_moment;
+} OfBogies;
+
+/* Adds those of a bogie: the present sum on the body less that `before`. */
+static void note_bogie(const CzBlock *d, int bogie, const CzPlane *restrict before,
+                       OfBogies *restrict of) {
     const double sign = bogie == 0 ? -1.0 : 1.0;
     const CzParameters *restrict rows = &d->parameter;
     const CzCarrier body = own_body(d), frame = own_bogie(d, bogie);
     const CzPlane *restrict after = &d->force.body;
-    CzBudgetRows *restrict budget = d->budget;
     CZ_LANES (i) {
         const BogieLine line = line_up_bogie(
             body, frame, rows, (Rest){sign * rows->bogie_x[i], rows->link.body_z[i]}, i);
         const double stop = d->published.secondary[bogie].stop_vertical[i];
         const double of_link = line.at.up * d->published.link[bogie].force[i];
         const double lift = body.turned->cosine[i] * stop;
-        budget->link_moment[i] += of_link;
-        budget->stop_lift[i] += lift;
-        budget->stop_moment[i] += line.at.along * stop;
-        budget->suspension_lift[i] += after->z[i] - before->z[i] - lift;
-        budget->suspension_moment[i] +=
+        of->link_moment[i] += of_link;
+        of->stop_lift[i] += lift;
+        of->stop_moment[i] += line.at.along * stop;
+        of->suspension_lift[i] += after->z[i] - before->z[i] - lift;
+        of->suspension_moment[i] +=
             after->pitch[i] - before->pitch[i] - of_link - line.at.along * stop;
+    }
+}
+
+/* Adds the forces of both bogies to a budget. */
+static void add_bogies(CzBudgetRows *restrict budget, const OfBogies *restrict of, double step) {
+    CZ_LANES (i) {
+        budget->link_moment[i] += step * of->link_moment[i];
+        budget->suspension_lift[i] += step * of->suspension_lift[i];
+        budget->suspension_moment[i] += step * of->suspension_moment[i];
+        budget->stop_lift[i] += step * of->stop_lift[i];
+        budget->stop_moment[i] += step * of->stop_moment[i];
     }
 }
 

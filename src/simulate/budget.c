@@ -60,14 +60,12 @@ CzBudget *cz_budget_begin(CzBatch *batch, CzArena *arena) {
     budget->face = cz_arena_allocate(&batch->arena, n, sizeof *budget->face);
     budget->lift = cz_arena_allocate(&batch->arena, n, sizeof *budget->lift);
     budget->pitch = cz_arena_allocate(&batch->arena, n, sizeof *budget->pitch);
-    CzBudgetRows *rows = cz_arena_allocate(&batch->arena, 2 * n_block, sizeof *rows);
+    CzBudgetRows *rows = cz_arena_allocate(&batch->arena, n_block, sizeof *rows);
     if (budget->kept == NULL || budget->face == NULL || budget->lift == NULL ||
         budget->pitch == NULL || rows == NULL)
         return NULL;
-    for (size_t i = 0; i < n_block; ++i) {
+    for (size_t i = 0; i < n_block; ++i)
         batch->dynamics->block[i].budget = &rows[i];
-        batch->dynamics->block[i].budget_sum = &rows[n_block + i];
-    }
     return budget;
 }
 
@@ -87,7 +85,7 @@ static void add_pushing_faces(CzBudget *budget, const CzBatch *batch) {
     for (int block = 0; block < batch->dynamics->n_block; ++block) {
         const CzBudgetRows *rows = batch->dynamics->block[block].budget;
         for (int i = 0; i < CZ_LANE_BLOCK; ++i)
-            if (rows->face_x[i] != 0.0 || rows->face_z[i] != 0.0)
+            if (rows->face.x[i] != 0.0 || rows->face.z[i] != 0.0)
                 add_faces(budget, batch, block * CZ_LANE_BLOCK + i);
     }
 }
@@ -95,7 +93,7 @@ static void add_pushing_faces(CzBudget *budget, const CzBatch *batch) {
 /* The impulses of all sources on the body of a car so far. */
 static void fill_sums(const CzBudget *budget, int car, double lift[CZ_N_BUDGET],
                       double moment[CZ_N_BUDGET]) {
-    const CzBudgetRows *own = budget->block[car / CZ_LANE_BLOCK].budget_sum;
+    const CzBudgetRows *own = budget->block[car / CZ_LANE_BLOCK].budget;
     const int i = car % CZ_LANE_BLOCK;
     for (int end = 0; end < 2; ++end) {
         lift[CZ_BUDGET_END_REAR + end] = own->end_lift[end][i];
@@ -114,7 +112,7 @@ static void fill_sums(const CzBudget *budget, int car, double lift[CZ_N_BUDGET],
         const int interface = side == 0 ? car : car - 1, end = 1 - side;
         if (interface < 0 || interface >= budget->n_car - 1)
             continue;
-        const CzBudgetRows *rows = budget->block[interface / CZ_LANE_BLOCK].budget_sum;
+        const CzBudgetRows *rows = budget->block[interface / CZ_LANE_BLOCK].budget;
         const int k = interface % CZ_LANE_BLOCK;
         lift[CZ_BUDGET_COUPLER_REAR + end] = rows->coupler_lift[side][k];
         moment[CZ_BUDGET_COUPLER_REAR + end] = rows->coupler_moment[side][k];
@@ -124,9 +122,12 @@ static void fill_sums(const CzBudget *budget, int car, double lift[CZ_N_BUDGET],
 }
 
 static double lift_of_wheels(const CzBatch *batch, size_t lane) {
+    const CzBlock *block = cz_block_of(batch->dynamics, lane);
     double largest = 0.0;
-    for (int axle = 0; axle < 4; ++axle)
-        largest = fmax(largest, -cz_published(batch, CZ_PUBLISHED(wheel[axle].approach), lane));
+    for (int axle = 0; axle < 4; ++axle) {
+        const double lift = -block->published.wheel[axle].approach[lane % CZ_LANE_BLOCK];
+        largest = lift > largest ? lift : largest;
+    }
     return largest;
 }
 

@@ -31,6 +31,8 @@ struct CzWatch {
     Watched *watched;
     Guard *guard;
     CzRow *limit; /* lowest thresholds of each guard in the lanes of a block (n_block x n_guard) */
+    int *open;    /* guards of each block with thresholds that are not passed (n_block x n_guard) */
+    int *n_open;  /* their number (n_block) */
     CzEvent *event;
 };
 
@@ -103,14 +105,16 @@ static void watch_side(CzWatch *list, const CzBatch *batch, int interface, int s
     const int which = side == 0 ? 1 : 0;
     watch(list, CZ_EVENT_TUBE_ACTIVATION, FROM_MEMORY, CZ_MEMORY(coupler.side[side].tube), lane,
           CRUSHED, "coupler", name);
-    watch(list, CZ_EVENT_SHEAR_OFF, FROM_MEMORY, CZ_MEMORY(coupler.side[side].shear), lane, CRUSHED,
-          "coupler", name);
+    if (of->side[side].shears_off)
+        watch(list, CZ_EVENT_SHEAR_OFF, FROM_MEMORY, CZ_MEMORY(coupler.side[side].shear), lane,
+              CRUSHED, "coupler", name);
     watch(list, CZ_EVENT_ANTI_CLIMBER_ACTIVATION, FROM_MEMORY, CZ_MEMORY(face.side[side].stroke),
           lane, CRUSHED, "anti-climber", name);
     const bool presses_plates = of->side[side].presses_plates;
-    watch(list, presses_plates ? CZ_EVENT_ANTI_CLIMBER_ACTIVATION : CZ_EVENT_TUBE_ACTIVATION,
-          FROM_MEMORY, CZ_MEMORY(side_buffers.side[side].tube), lane, CRUSHED,
-          presses_plates ? "anti-climber" : "side buffers", name);
+    if (of->has_side_buffers)
+        watch(list, presses_plates ? CZ_EVENT_ANTI_CLIMBER_ACTIVATION : CZ_EVENT_TUBE_ACTIVATION,
+              FROM_MEMORY, CZ_MEMORY(side_buffers.side[side].tube), lane, CRUSHED,
+              presses_plates ? "anti-climber" : "side buffers", name);
     watch_devices(list, batch, interface, side);
     if (of->side[side].has_massless_end) {
         const int massless = CZ_CURVE(massless[side]);
@@ -134,8 +138,9 @@ static void watch_interface(CzWatch *list, const CzBatch *batch, int interface) 
     watch(list, CZ_EVENT_ANTI_CLIMBER_CONTACT, FROM_MEMORY, CZ_MEMORY(face.speed), lane, 0.0, "",
           name);
     watch(list, CZ_EVENT_OVERRIDE, FROM_EXTREME, CZ_EXTREME(face_climbed), lane, 0.0, "", name);
-    watch(list, CZ_EVENT_SUPERSTRUCTURE_CRUSH, FROM_MEMORY, CZ_MEMORY(superstructure.set), lane,
-          CRUSHED, "superstructures", name);
+    if (batch->equipment[lane].has_superstructures)
+        watch(list, CZ_EVENT_SUPERSTRUCTURE_CRUSH, FROM_MEMORY, CZ_MEMORY(superstructure.set), lane,
+              CRUSHED, "superstructures", name);
     for (int side = 0; side < 2; ++side)
         watch_side(list, batch, interface, side);
 }
@@ -165,8 +170,29 @@ static void watch_car(CzWatch *list, const CzBatch *batch, int car) {
     }
 }
 
+static void clear_limits(CzWatch *list, const CzBatch *batch) {
+    const size_t n = (size_t)(batch->dynamics->n_block * list->n_guard);
+    for (size_t k = 0; k < n; ++k)
+        for (int i = 0; i < CZ_LANE_BLOCK; ++i)
+            list->limit[k][i] = INFINITY;
+}
+
+/* Lists the guards of a block that some lane still has to pass. */
+static void list_open(CzWatch *list, size_t block) {
+    const size_t base = block * (size_t)list->n_guard;
+    list->n_open[block] = 0;
+    for (int k = 0; k < list->n_guard; ++k) {
+        bool any = false;
+        for (int i = 0; i < CZ_LANE_BLOCK; ++i)
+            any |= list->limit[base + (size_t)k][i] < INFINITY;
+        if (any)
+            list->open[base + (size_t)list->n_open[block]++] = k;
+    }
+}
+
 /* The lowest thresholds that are not passed yet. */
-static void set_limits(CzWatch *list) {
+static void set_limits(CzWatch *list, const CzBatch *batch) {
+    clear_limits(list, batch);
     for (int i = 0; i < list->n_watched; ++i) {
         const Watched *watched = &list->watched[i];
         const size_t block = watched->lane / CZ_LANE_BLOCK;
@@ -175,13 +201,8 @@ static void set_limits(CzWatch *list) {
         if (!watched->passed)
             *lowest = fmin(*lowest, watched->threshold);
     }
-}
-
-static void clear_limits(CzWatch *list, const CzBatch *batch) {
-    const size_t n = (size_t)(batch->dynamics->n_block * list->n_guard);
-    for (size_t k = 0; k < n; ++k)
-        for (int i = 0; i < CZ_LANE_BLOCK; ++i)
-            list->limit[k][i] = INFINITY;
+    for (int block = 0; block < batch->dynamics->n_block; ++block)
+        list_open(list, (size_t)block);
 }
 
 CzWatch *cz_watch_begin(const CzBatch *batch, CzArena *arena) {
@@ -193,8 +214,11 @@ CzWatch *cz_watch_begin(const CzBatch *batch, CzArena *arena) {
     list->watched = cz_arena_allocate(arena, most, sizeof *list->watched);
     list->guard = cz_arena_allocate(arena, MOST_GUARDS, sizeof *list->guard);
     list->limit = cz_arena_allocate(arena, n_limit, sizeof *list->limit);
+    list->open = cz_arena_allocate(arena, n_limit, sizeof *list->open);
+    list->n_open = cz_arena_allocate(arena, (size_t)batch->dynamics->n_block, sizeof(int));
     list->event = cz_arena_allocate(arena, most, sizeof *list->event);
-    if (list->watched == NULL || list->guard == NULL || list->limit == NULL || list->event == NULL)
+    if (list->watched == NULL || list->guard == NULL || list->limit == NULL || list->open == NULL ||
+        list->n_open == NULL || list->event == NULL)
         return NULL;
     for (int car = 0; car < batch->n_car; ++car) {
         list->interface = car;
@@ -203,8 +227,7 @@ CzWatch *cz_watch_begin(const CzBatch *batch, CzArena *arena) {
         list->interface = -1;
         watch_car(list, batch, car);
     }
-    clear_limits(list, batch);
-    set_limits(list);
+    set_limits(list, batch);
     return list;
 }
 
@@ -216,19 +239,26 @@ static const double *row_at(const CzBlock *block, const Guard *guard) {
 
 /* Whether some lane of a block is beyond one of its limits: checking all of them costs little more
  * than a single value. */
-static bool is_beyond(const CzWatch *list, const CzBlock *block, const CzRow *limit) {
-    CzRow n_beyond = {0.0};
-    for (int k = 0; k < list->n_guard; ++k) {
-        const double *restrict row = row_at(block, &list->guard[k]);
-        const double sign = list->guard[k].sign;
-#pragma omp simd
-        for (int i = 0; i < CZ_LANE_BLOCK; ++i)
-            n_beyond[i] += sign * row[i] > limit[k][i] ? 1.0 : 0.0;
-    }
-    double sum = 0.0;
+static bool is_beyond(const CzWatch *list, size_t block, const CzBlock *rows) {
+    const size_t base = block * (size_t)list->n_guard;
+    CzRow excess;
     for (int i = 0; i < CZ_LANE_BLOCK; ++i)
-        sum += n_beyond[i];
-    return sum > 0.0;
+        excess[i] = 0.0;
+    for (int k = 0; k < list->n_open[block]; ++k) {
+        const int which = list->open[base + (size_t)k];
+        const double *restrict row = row_at(rows, &list->guard[which]);
+        const double *restrict limit = list->limit[base + (size_t)which];
+        const double sign = list->guard[which].sign;
+#pragma omp simd
+        for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
+            const double beyond = sign * row[i] - limit[i];
+            excess[i] = beyond > excess[i] ? beyond : excess[i];
+        }
+    }
+    double largest = 0.0;
+    for (int i = 0; i < CZ_LANE_BLOCK; ++i)
+        largest = excess[i] > largest ? excess[i] : largest;
+    return largest > 0.0;
 }
 
 /* Adds events for the values that have passed their threshold. */
@@ -244,15 +274,13 @@ static void list_events(CzWatch *list, const CzBatch *batch) {
         watched->event.time = batch->time;
         list->event[list->n_event++] = watched->event;
     }
-    clear_limits(list, batch);
-    set_limits(list);
+    set_limits(list, batch);
 }
 
 void cz_watch_update(CzWatch *list, const CzBatch *batch) {
     bool any_beyond = false;
     for (int i = 0; i < batch->dynamics->n_block && !any_beyond; ++i)
-        any_beyond =
-            is_beyond(list, &batch->dynamics->block[i], list->limit + (size_t)(i * list->n_guard));
+        any_beyond = is_beyond(list, (size_t)i, &batch->dynamics->block[i]);
     if (any_beyond)
         list_events(list, batch);
 }

@@ -115,14 +115,16 @@ static void begin_chain(Chain *chain, const SpringLaw *law, const double *closur
 }
 
 /* A tube or an anti-climber whose strength does not depend on the closing speed. */
-static Plastic collapsing(const CzBlockCurve *strength, const double *rate, const double *stroke,
-                          double *next) {
-    return (Plastic){.curve = strength,
-                     .rate = rate,
-                     .rise = zeros,
-                     .stroke = stroke,
-                     .next = next,
-                     .is_missing = !strength->is_there};
+static void list_collapsing(Plastic *member, const CzBlockCurve *strength, const double *rate,
+                            const double *stroke, double *next) {
+    member->is_missing = !strength->is_there;
+    member->stroke = stroke;
+    if (member->is_missing)
+        return;
+    member->curve = strength;
+    member->rate = rate;
+    member->rise = zeros;
+    member->next = next;
 }
 
 static void list_energies(Spring *side, const double *energy, double *next_energy,

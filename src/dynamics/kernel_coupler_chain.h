@@ -26,11 +26,11 @@ static void list_couplers(CzBlock *d, const CouplerLine *line, double step, Coup
                              &next->side[side].buffer});
         list_energies(&chain->spring[side], memory->side[side].energy, next->side[side].energy,
                       memory->side[side].tube_energy, next->side[side].tube_energy);
-        chain->plastic[side] = collapsing(&d->curve.tube[side], rows->side[side].tube_rate,
-                                          memory->side[side].tube, next->side[side].tube);
-        chain->plastic[2 + side] =
-            collapsing(&d->curve.second_tube[side], rows->side[side].second_tube_rate,
-                       memory->side[side].second_tube, next->side[side].second_tube);
+        list_collapsing(&chain->plastic[side], &d->curve.tube[side], rows->side[side].tube_rate,
+                        memory->side[side].tube, next->side[side].tube);
+        list_collapsing(&chain->plastic[2 + side], &d->curve.second_tube[side],
+                        rows->side[side].second_tube_rate, memory->side[side].second_tube,
+                        next->side[side].second_tube);
         chain->plastic[SHEAR_OFF + side] = (Plastic){.shear = &rows->side[side].shear,
                                                      .rate = zeros,
                                                      .rise = zeros,

@@ -41,8 +41,8 @@ static void list_faces(CzBlock *d, const Contact *contact, double step, FaceChai
         chain->spring[side].next = after->stroke;
         list_energies(&chain->spring[side], before->energy, after->energy,
                       memory->side[side].energy, next->side[side].energy);
-        chain->plastic[side] = collapsing(&d->curve.face[side], rows->side[side].rate,
-                                          memory->side[side].stroke, next->side[side].stroke);
+        list_collapsing(&chain->plastic[side], &d->curve.face[side], rows->side[side].rate,
+                        memory->side[side].stroke, next->side[side].stroke);
         chain->plastic[side].rise = of->rise[side];
     }
 }

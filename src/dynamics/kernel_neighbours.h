@@ -101,11 +101,26 @@ static void look_ahead(const CzDynamics *dynamics, int index) {
     pick(&ahead, (const Pair *)pair, &d->ahead, 2 * ROWS_OF_MOTION);
 }
 
+/* Forces along the track of the interfaces behind cars that move along it only. */
+static void take_over_along(const Window *behind, CzBlock *d) {
+    Pair pair[3];
+    lay_row(behind, offsetof(CzBlock, pushed.body.x), pair);
+    lay_row(behind, offsetof(CzBlock, pushed.end.x), pair + 1);
+    lay_row(behind, offsetof(CzBlock, pushed.section), pair + 2);
+    pick(behind, (const Pair *)pair, d->from_behind.x, 1);
+    pick(behind, (const Pair *)pair + 1, d->force.end[0].x, 1);
+    pick(behind, (const Pair *)pair + 2, d->published.section[0], 1);
+}
+
 /* Forces of the interfaces behind the cars: the sums of rear ends and their sections start with
  * them. */
 static void take_over(const CzDynamics *dynamics, int index) {
     CzBlock *d = &dynamics->block[index];
     const Window behind = window(dynamics, index, -dynamics->lanes->n_design);
+    if (!dynamics->lanes->has.full_cars) {
+        take_over_along(&behind, d);
+        return;
+    }
     Pair pair[ROWS_PUSHED];
     lay(&behind.low->pushed, &behind.high->pushed, pair, ROWS_PUSHED);
     pick(&behind, (const Pair *)pair, &d->from_behind, ROWS_OF_PLANE);

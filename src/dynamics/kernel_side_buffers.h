@@ -40,8 +40,8 @@ static void list_side_buffers(CzBlock *d, const Contact *contact, double step,
                              &next->side[side].buffer});
         list_energies(&of->chain.spring[side], memory->side[side].energy, next->side[side].energy,
                       memory->side[side].tube_energy, next->side[side].tube_energy);
-        of->chain.plastic[side] = collapsing(&d->curve.side_tube[side], rows->side[side].tube_rate,
-                                             memory->side[side].tube, next->side[side].tube);
+        list_collapsing(&of->chain.plastic[side], &d->curve.side_tube[side],
+                        rows->side[side].tube_rate, memory->side[side].tube, next->side[side].tube);
         of->chain.plastic[side].rise = rise->of[side];
     }
 }

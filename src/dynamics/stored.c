@@ -172,9 +172,12 @@ static double crush_lost(const CzCurveLanes *curve, size_t lane, const CzVehicle
  * accumulates. */
 static void fill_crush(const CzCurveLanes *curve, size_t lane, const CzVehicleEndLaw *law, double x,
                        double largest, CzCrushEnergy *energy) {
+    if (largest == energy->largest && x == energy->shortening)
+        return;
     if (largest != energy->largest)
         energy->lost = crush_lost(curve, lane, law, largest);
     energy->largest = largest;
+    energy->shortening = x;
     energy->stored = crush_stored(curve, lane, law, x, largest);
     energy->received = energy->lost + energy->stored;
 }

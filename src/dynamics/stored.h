@@ -10,8 +10,9 @@
 /* A crush zone: stored energy, and received energy, which is the stored part and the loss of
  * loading it to its largest shortening. */
 typedef struct CzCrushEnergy {
-    double stored, received;
-    double largest, lost; /* largest shortening [m], and the loss of loading to it */
+    double stored, received;    /* [J] */
+    double shortening, largest; /* of which they are [m] */
+    double lost;                /* loss of loading to the largest [J] */
 } CzCrushEnergy;
 
 /* Stored energy of the elements of a lane; 0 where an element is missing. */

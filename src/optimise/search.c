@@ -29,8 +29,10 @@ void cz_search_init(CzSearch *search, const CzFunction *function,
 void cz_search_free(CzSearch *search) {
     free(search->record);
     free(search->x);
+    free(search->detail);
     search->record = NULL;
     search->x = NULL;
+    search->detail = NULL;
 }
 
 static void finish(CzSearch *search, CzStatus status, const char *why) {
@@ -59,6 +61,10 @@ void cz_search_resume(CzSearch *search) {
 
 const double *cz_search_x(const CzSearch *search, long record) {
     return search->x + record * search->function->n_variable;
+}
+
+const double *cz_search_detail(const CzSearch *search, long record) {
+    return search->detail + record * cz_search_n_detail(search);
 }
 
 void cz_search_unscale(const CzSearch *search, int n, const double *u, double *x) {
@@ -176,9 +182,14 @@ static bool make_room(CzSearch *search, long n) {
     double *x = realloc(search->x, ((size_t)room * n_variable + 1) * sizeof *x);
     if (x != NULL)
         search->x = x;
-    if (record != NULL && x != NULL)
-        search->room = room;
-    return record != NULL && x != NULL;
+    const size_t n_detail = (size_t)cz_search_n_detail(search);
+    double *detail = realloc(search->detail, ((size_t)room * n_detail + 1) * sizeof *detail);
+    if (detail != NULL)
+        search->detail = detail;
+    if (record == NULL || x == NULL || detail == NULL)
+        return false;
+    search->room = room;
+    return true;
 }
 
 /* Whether a record improves the best one enough to continue the search. */
@@ -262,6 +273,10 @@ double cz_search_compressed(double constraint) {
     return constraint <= knee ? constraint : knee * (1 + log(constraint / knee));
 }
 
+double cz_search_expanded(double compressed) {
+    return compressed <= knee ? compressed : knee * exp(fmin(compressed / knee - 1, 10));
+}
+
 double cz_search_compressed_slope(double constraint) {
     return constraint <= knee ? 1 : knee / constraint;
 }
@@ -331,8 +346,11 @@ static void record_values(CzSearch *search, const char *phase, bool is_partial, 
                           double *objective, double *constraint, double *detail) {
     const int m = search->function->n_constraint;
     const int n_detail = detail != NULL ? cz_search_n_detail(search) : 0;
+    double *kept = search->detail + search->n_record * cz_search_n_detail(search);
+    if (search->function->n_detail == 0)
+        memcpy(kept, constraint, (size_t)m * sizeof *detail);
     if (n_detail > 0 && search->function->n_detail == 0)
-        memcpy(detail, constraint, (size_t)m * sizeof *detail);
+        memcpy(detail, kept, (size_t)m * sizeof *detail);
     CzRecord record = cz_search_judge(search->function, phase, *objective, constraint);
     record.is_partial = is_partial;
     add_record(search, x, &record);
@@ -372,8 +390,10 @@ bool cz_search_evaluate(CzSearch *search, const char *phase, int n, const double
     CzStatus status = CZ_STATUS_NO_MEMORY;
     search->phase = phase;
     if (make_room(search, n))
-        status = function->evaluate(function->data, n, x, objective, constraint,
-                                    function->n_detail > 0 ? detail : NULL, &search->error);
+        status = function->evaluate(
+            function->data, n, x, objective, constraint,
+            function->n_detail > 0 ? search->detail + search->n_record * function->n_detail : NULL,
+            &search->error);
     else
         cz_no_memory(&search->error, "the history");
     if (status != CZ_OK) {
@@ -381,6 +401,9 @@ bool cz_search_evaluate(CzSearch *search, const char *phase, int n, const double
         finish(search, status, is_stopped ? "interrupted" : "an evaluation could not be made");
         return false;
     }
+    if (detail != NULL && function->n_detail > 0)
+        memcpy(detail, cz_search_detail(search, search->n_record),
+               (size_t)n * (size_t)function->n_detail * sizeof *detail);
     for (int i = 0; i < n; i++) {
         const bool is_partial = function->is_partial != NULL && function->is_partial[i];
         record_values(search, phase, is_partial, x + i * function->n_variable, &objective[i],

@@ -80,6 +80,7 @@ typedef struct CzSearch {
     long n_record, room;
     CzRecord *record;  /* history in order (n_record) */
     double *x;         /* (n_record x n_variable) */
+    double *detail;    /* details, uncompressed (n_record x cz_search_n_detail) */
     long best;         /* record of the best design so far, -1 when none */
     long best_on_grid; /* likewise among those on the catalogue increments */
     long last_gain;    /* number of evaluations when the best last improved by more than 0.1 % */
@@ -136,6 +137,7 @@ bool cz_search_evaluate_start(CzSearch *search, const char *phase);
 /* A constraint on the scale of penalties: unchanged up to 0.1, logarithmic above. */
 double cz_search_compressed(double constraint);
 double cz_search_compressed_slope(double constraint);
+double cz_search_expanded(double compressed); /* the inverse, up to the exponential of 10 */
 
 /* The residual of a further constraint of a fit: above 0 from slightly below the limit on. */
 double cz_search_residual(double constraint);
@@ -156,6 +158,9 @@ bool cz_search_is_apart(const CzSearch *search, long record, int n_chosen, const
 
 /* Variables of a record (n_variable). */
 const double *cz_search_x(const CzSearch *search, long record);
+
+/* Details of a record (cz_search_n_detail); those of a scenario that was left out are NaN. */
+const double *cz_search_detail(const CzSearch *search, long record);
 
 /* The same for records of a search by number; a number below 0 is worse than any. */
 bool cz_search_is_better(const CzSearch *search, long record, long other);

@@ -22,6 +22,8 @@ set(CZ_SOURCES_optimise
     optimise.c
     outcome.c
     pareto.c
+    response.c
+    response_descent.c
     replay.c
     relaxation.c
     robust.c

@@ -1,7 +1,8 @@
 /* The default strategy, that of a fit, and single algorithms by name.
  *
  *   screen    the start, then points that fill the box and a smaller one around the start
- *   descend   response surfaces from the best points that lie apart
+ *   descend   response surfaces from the best points that lie apart: planes; without catalogue
+ *             increments then smooth ones between all designs, also from near the best design
  *   polish    COBYLA and elastic SLSQP by turns from the best, with smaller and smaller steps
  *   snap      to the catalogue increments
  *
@@ -16,6 +17,7 @@
 #include "base/error.h"
 #include "optimise/gauss_newton.h"
 #include "optimise/nlopt_adapter.h"
+#include "optimise/response.h"
 #include "optimise/surface_held.h"
 
 #include <math.h>
@@ -33,6 +35,9 @@ enum {
 /* Half width of the smaller box around the start, from which every other screening point is
  * drawn. */
 static const double near_start = 0.2;
+
+/* Half width of the box around the best design from which every other descent begins. */
+static const double hop_width = 0.25;
 
 static void screen(CzSearch *search, unsigned long seed, long offset, long n_point) {
     const int n = search->function->n_variable;
@@ -233,29 +238,78 @@ static long next_start(const CzSurface *surface, unsigned long seed, int start, 
     return best_apart(search, visited->n, visited->u, apart, visited->scratch);
 }
 
+/* Whether descents go on on smooth surfaces between all designs: not with catalogue increments,
+ * where the best design between them is often far from the best one on them. */
+static bool has_smooth_surfaces(const CzSearch *search) {
+    return !cz_search_has_steps(search);
+}
+
+/* Descends on planes, then, from a design that passes or where the smallest margin is maximised, on
+ * smooth surfaces. */
+static void descend(CzSurface *surface, const double *from, long evaluations) {
+    CzSearch *search = surface->search;
+    const long first = search->n_record;
+    const bool is_smooth = has_smooth_surfaces(search);
+    cz_surface_descend(surface, "descend", from, evaluations, !is_smooth);
+    const long left = evaluations - (search->n_record - first);
+    if (surface->record < first || left < 1 || !is_smooth ||
+        (surface->penalty > 0 && !search->function->is_minimax))
+        return;
+    memcpy(surface->x, cz_search_x(search, surface->record),
+           (size_t)surface->n * sizeof *surface->x);
+    cz_response_descend(surface, "descend", surface->x, left);
+}
+
+/* Descends on smooth surfaces from a random design near the best one; false where only more points
+ * in the whole box may find a design that passes. */
+static bool hop(CzSurface *surface, unsigned long seed, int start, long reserve) {
+    CzSearch *search = surface->search;
+    const int n = surface->n;
+    const long left = cz_search_left(search) - reserve;
+    if (left < n + 2 || search->best < 0 || !has_smooth_surfaces(search) ||
+        (search->record[search->best].penalty > 0 && !search->function->is_minimax))
+        return false;
+    double *u = cz_search_numbers(search, 3 * (size_t)n), *x = u + n, *best = x + n;
+    if (u == NULL)
+        return false;
+    cz_sample_point(seed + 1000, start, n, u);
+    cz_search_scale(search, cz_search_x(search, search->best), best);
+    for (int i = 0; i < n; i++)
+        u[i] = fmin(fmax(best[i] + hop_width * (2 * u[i] - 1), 0), 1);
+    cz_search_unscale(search, 1, u, x);
+    cz_response_descend(surface, "descend", x, left);
+    free(u);
+    return true;
+}
+
+/* Descends from a record, or from the file's own design where that is -1. */
+static void descend_from(CzSurface *surface, long record, long evaluations, Visited *visited) {
+    CzSearch *search = surface->search;
+    const double *from = record < 0 ? search->function->start : cz_search_x(search, record);
+    cz_search_scale(search, from, visited->scratch);
+    visit(visited, visited->scratch, surface->n);
+    descend(surface, from, evaluations);
+    visit(visited, surface->u, surface->n);
+}
+
 /* Descends from the start, then from the best of further points that fill the box, as long as
  * evaluations are left and some of the latest descents improved the best design, which each time is
  * moved to the catalogue increments. */
 static void search_basins(CzSurface *surface, unsigned long seed, Visited *visited) {
     CzSearch *search = surface->search;
-    const int n = surface->n;
-    const long reserve = cz_search_has_steps(search) ? n / 2 + 8 : 0;
+    const long reserve = cz_search_has_steps(search) ? surface->n / 2 + 8 : 0;
     int n_idle = 0;
     for (int start = 0; start < MOST_STARTS && n_idle < MOST_IDLE_STARTS; start++) {
         const long gain_before = search->last_gain, best_before = search->best;
-        const long record =
-            next_start(surface, seed, start, cz_search_left(search) - reserve, visited);
+        const bool has_hopped = start % 2 == 1 && hop(surface, seed, start, reserve);
+        const long record = has_hopped ? search->best
+                                       : next_start(surface, seed, start,
+                                                    cz_search_left(search) - reserve, visited);
         const long left = cz_search_left(search) - reserve;
-        if (left < n + 2)
+        if (left < surface->n + 2)
             break;
-        if (record >= 0) {
-            const double *from = start == 0 && surface->n_held == 0 ? search->function->start
-                                                                    : cz_search_x(search, record);
-            cz_search_scale(search, from, visited->scratch);
-            visit(visited, visited->scratch, n);
-            cz_surface_descend(surface, "descend", from, left);
-            visit(visited, surface->u, n);
-        }
+        if (record >= 0 && !has_hopped)
+            descend_from(surface, start == 0 && surface->n_held == 0 ? -1 : record, left, visited);
         if (search->last_gain != gain_before)
             n_idle = 0;
         else if (record >= 0)

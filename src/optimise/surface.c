@@ -393,7 +393,8 @@ static int list_steps(const CzSurface *surface, double radius, double smallest, 
     return n_step;
 }
 
-void cz_surface_descend(CzSurface *surface, const char *phase, const double *x, long evaluations) {
+void cz_surface_descend(CzSurface *surface, const char *phase, const double *x, long evaluations,
+                        bool with_refresh) {
     CzSearch *search = surface->search;
     const int n = surface->n;
     const long limit = search->n_record + evaluations;
@@ -437,7 +438,9 @@ void cz_surface_descend(CzSurface *surface, const char *phase, const double *x, 
             radius = fmin(radius, fmax(step, smallest_radius)) * (ratio < 0 ? 0.35 : 0.5);
         if (goes_on && n_failed < 4 && radius > smallest_radius)
             continue;
-        if (surface->is_fresh || search->n_record + n > limit ||
+        const bool is_enough =
+            !with_refresh && (surface->penalty <= 0 || search->function->is_minimax);
+        if (is_enough || surface->is_fresh || search->n_record + n > limit ||
             !(merit(surface, surface->f, surface->penalty) < at_refresh - least_progress))
             break;
         at_refresh = merit(surface, surface->f, surface->penalty);

@@ -87,7 +87,10 @@ bool cz_surface_best_in(const CzSurface *surface, const double *lo, const double
 bool cz_surface_best(const CzSurface *surface, double radius, double *u);
 
 /* Moves from design x, in the variables' units, by boxes that grow and shrink, with at most
- * `evaluations` evaluations, until there is no improvement. The surface stays at the last base. */
-void cz_surface_descend(CzSurface *surface, const char *phase, const double *x, long evaluations);
+ * `evaluations` evaluations, until there is no improvement; then, as long as that helps, again with
+ * new secants: without `with_refresh` only where no smallest margin is maximised and a constraint
+ * is violated. The surface stays at the last base. */
+void cz_surface_descend(CzSurface *surface, const char *phase, const double *x, long evaluations,
+                        bool with_refresh);
 
 #endif

@@ -4,6 +4,7 @@
  *   bench_searches METHOD FILE...       one line for each problem and seed: problem, method, seed,
  *                                       and each improvement of the best design so far as
  *                                       evaluations:objective
+ *   bench_searches --evaluations N METHOD FILE...   the same with N evaluations and three seeds
  *   bench_searches --table FILE <LINES  a line of CSV for each problem and method, from such lines
  *                                       and the best known objectives of FILE: share of seeds with
  *                                       a design that passes and median distance from the best
@@ -64,8 +65,9 @@ static CzOutcome *search(CzEvaluator *evaluator, const char *method, long seed, 
 }
 
 /* Prints the line of one search. */
-static void compare(CzEvaluator *evaluator, const BestKnown *best, const char *method, long seed) {
-    CzOutcome *outcome = search(evaluator, method, seed, MOST_COUNT);
+static void compare(CzEvaluator *evaluator, const BestKnown *best, const char *method, long seed,
+                    long evaluations) {
+    CzOutcome *outcome = search(evaluator, method, seed, evaluations);
     double least = INFINITY;
     printf("%s %s %ld", best->problem, method, seed);
     for (long i = 0; i < outcome->n_trial; i++) {
@@ -211,7 +213,11 @@ int main(int argc, char **argv) {
         return 0;
     }
     const bool is_long = argc > 3 && strcmp(argv[1], "--long") == 0;
-    for (int i = is_long ? 3 : 2; i < argc; i++) {
+    const bool is_counted = argc > 4 && strcmp(argv[1], "--evaluations") == 0;
+    const char *method = argv[is_counted ? 3 : 1];
+    const long evaluations = is_counted ? atol(argv[2]) : MOST_COUNT;
+    const long n_seed = !is_random(method) ? 1 : is_counted ? N_LONG_SEED : N_SEED;
+    for (int i = is_counted ? 4 : is_long ? 3 : 2; i < argc; i++) {
         CzProblem *problem = NULL;
         CzEvaluator *evaluator = NULL;
         CzError error = {0};
@@ -226,8 +232,8 @@ int main(int argc, char **argv) {
             find_best(evaluator, name, atol(argv[2]));
         } else {
             const BestKnown best = best_known_of(argv[i]);
-            for (long seed = 1; seed <= (is_random(argv[1]) ? N_SEED : 1); seed++) {
-                compare(evaluator, &best, argv[1], seed);
+            for (long seed = 1; seed <= n_seed; seed++) {
+                compare(evaluator, &best, method, seed, evaluations);
                 fflush(stdout);
             }
         }

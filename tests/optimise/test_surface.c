@@ -105,7 +105,7 @@ static void descent_keeps_its_budget_and_ends_at_the_optimum(void **state) {
         double u[MOST_VARIABLES];
         create(&surface, &search, &function, 4);
         cz_search_scale(&search, function.start, u);
-        cz_surface_descend(&surface, "test", u, 150);
+        cz_surface_descend(&surface, "test", u, 150, true);
         assert_true(search.n_record <= 150);
         /* planes alone follow a curved constraint slowly: a few per cent is their accuracy */
         assert_near(search.record[search.best].objective, problems[i]->best, 0.05, 0);

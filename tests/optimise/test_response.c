@@ -38,16 +38,16 @@ the_response_contains_every_design_and_its_slopes_are_those_of_its_values(void *
         cz_search_scale(&search, x[i], u);
         const double f = hs22(x[i], c);
         cz_response_linearise(&response, u, true, &surface);
-        assert_near(surface.f, f, 1e-6, 0);
+        assert_near(surface.f, f, 1e-6, 0); /* the weights' equations have tiny diagonals */
         for (int k = 0; k < 2; k++)
-            assert_near(surface.c[k], c[k], 1e-6, 1e-6);
+            assert_near(surface.c[k], c[k], 1e-6, 1e-6); /* likewise */
     }
     double u[] = {0.45, 0.55};
     cz_response_linearise(&response, u, false, &surface);
     const double f = surface.f, slope = surface.df[1];
     u[1] += step;
     cz_response_linearise(&response, u, true, &surface);
-    assert_near((surface.f - f) / step, slope, 1e-3, 1e-3);
+    assert_near((surface.f - f) / step, slope, 1e-3, 1e-3); /* rounding over the step */
     cz_response_free(&response);
     destroy(&surface, &search);
 }
@@ -60,6 +60,7 @@ static void a_descent_follows_a_curved_constraint_to_the_optimum(void **state) {
     create(&surface, &search, &function);
     cz_response_descend(&surface, "test", function.start, 60);
     assert_true(search.best >= 0);
+    /* constraints are kept by a reserve of 1e-3 */
     assert_near(search.record[search.best].objective, analytic_hs22.best, 5e-3, 0);
     assert_true(search.record[search.best].violation <= 0);
     destroy(&surface, &search);

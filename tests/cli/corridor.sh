@@ -46,12 +46,6 @@ folder() { [ "$(head -1 whole/corridor.csv | tr -d '\r')" = stroke_mm,lower_kN,n
 check "-o writes corridor.json, corridor.csv, corridor.svg and report.html" folder
 threads() { for jobs in 1 3; do exits 0 "$C" corridor scatter.yaml --part zone -n 2 -q -j $jobs -o jobs$jobs || return 1; done; same_bytes jobs1 jobs3; }
 check "any number of threads gives the same bytes" threads
-if [ -x "$BUILD/crushzone-mpi" ] && command -v mpirun >/dev/null 2>&1; then
-    ranks() { mpirun --quiet --oversubscribe --allow-run-as-root -n 3 "$BUILD/crushzone-mpi" corridor scatter.yaml --part zone -n 2 -q -o ranks >out.txt 2>err.txt && same_bytes jobs1 ranks; }
-    check "a corridor in 3 ranks is the bytes of one thread" ranks
-else
-    skipped "a corridor in 3 ranks is the bytes of one thread" "no mpirun, or built without it: install [mpi] of packages.txt"
-fi
 scattered() { says jobs1/report.html 'Sampled 2 times' && json jobs1/corridor.json draws.1.name mass && exits 0 "$C" corridor scatter.yaml --part zone -n 3 -q --no-scatter -o without && cmp without/corridor.csv whole/corridor.csv && says without/report.html 'everything but this device has its nominal value'; }
 check "the scatter is sampled unless --no-scatter leaves it out" scattered
 locale() { LOCPATH=$BUILD/tests/locales LC_ALL=de_DE.UTF-8 exits 0 "$C" corridor two.yaml --part zone -n 3 -q -o locale; same_bytes whole locale; }

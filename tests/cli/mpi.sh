@@ -69,6 +69,17 @@ check "a challenge in 3 ranks is the bytes of one thread" same 3 challenge scatt
 check "a sweep in 3 ranks is the bytes of one thread" same 3 sweep two-trains.yaml --vary trains.A.speed_km_h=10:30:9
 check "a front in 2 ranks is the bytes of one thread" \
     same 2 pareto two-trains.yaml --minimise margin --minimise design.installed_length_mm -n 2 --evaluations 20
+cat >zone.yaml <<'END'
+schema: 1
+title: two rigid vehicles and one plateau
+parts: {zone: {gap_mm: 0, stages: [{stroke_mm: 560, force_kN: 1000}], trigger_kN: 1050}}
+trains:
+  - {name: A, speed_km_h: 25, vehicles: [{name: A1, model: rigid, mass_t: 40, front: {face_gap_m: 5, anti_climber: {use: zone}}}]}
+  - {name: B, vehicles: [{name: B1, model: rigid, mass_t: 40, rear: {face_gap_m: 0}}]}
+checks: {design_rules: false, limits: [{name: force, metric: interfaces.peak_force_kN, max: 1180}]}
+uncertainty: {parameters: [{name: mass, path: 'trains.*.vehicles.*.mass_t', tolerance_percent: 5}]}
+END
+check "a corridor in 3 ranks is the bytes of one thread" same 3 corridor zone.yaml --part zone -n 2
 check "runs in 2 ranks are the bytes of one thread" same 2 run two-trains.yaml
 
 printed() { # printed FILE COMMAND...: what it prints

@@ -113,7 +113,7 @@ wait_for_lines() {
     done
     return 1
 }
-long_search="optimise two-trains.yaml --evaluations 400"
+long_search="optimise two-trains.yaml --evaluations 200"
 # Sends a signal to one of the processes of mpirun, the number-th of them, or to mpirun itself (0); then resumes the search in
 # threads, which ends in the bytes of a search that was left alone.
 stopped_by() { # stopped_by SIGNAL NUMBER
@@ -137,7 +137,7 @@ check "so does a search that is asked to end" stopped_by TERM 0
 limit_is_kept() {
     rm -rf limited
     code=0
-    ranks 2 $long_search --max-time 0.7s -o limited -q >out.txt 2>err || code=$?
+    ranks 2 $long_search --max-time 0.4s -o limited -q >out.txt 2>err || code=$?
     [ "$code" = 3 ] || { echo "exit code $code"; cat err; return 1; }
     "$C" optimise two-trains.yaml --resume limited -q >out.txt 2>err || [ $? = 1 ] || { cat err; return 1; }
     same_results once limited

@@ -147,9 +147,11 @@ typedef struct CzOutcome {
     double *start,
         *best; /* in the variables' units; best is on the catalogue increments unless the search
                   ended earlier or only designs between them pass (see why_stopped) (n_variable) */
-    bool *at_bound;                                 /* (n_variable) */
-    CzEvaluation start_evaluation, best_evaluation; /* with runs kept */
-    int n_alternative;   /* of a fit: further parameter sets that fit about as well */
+    bool *at_bound;                /* (n_variable) */
+    CzEvaluation best_evaluation;  /* with runs kept */
+    CzEvaluation start_evaluation; /* with the run that decides `best_evaluation`, at the same
+                                      place; with all runs in a fit and with an own objective */
+    int n_alternative;             /* of a fit: further parameter sets that fit about as well */
     double *alternative; /* in the variables' units, best first (n_alternative x n_variable) */
     double *alternative_objective; /* (n_alternative) */
     CzVerification *verification;  /* of the best design; NULL when it does not pass or the search

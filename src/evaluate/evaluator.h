@@ -83,6 +83,12 @@ CZ_MUST_CHECK CzStatus cz_evaluator_search(const CzEvaluator *evaluator, int n_p
                                            const double *x, CzEvaluation *evaluation,
                                            double *detail, CzError *error);
 
+/* Runs one design (n_variable) in one scenario, recorded, and keeps this run in its evaluation,
+ * which has none, as number `run`: that of the scenario where all runs are kept. Only where
+ * cz_evaluator_can_select. */
+CZ_MUST_CHECK CzStatus cz_evaluator_record_run(const CzEvaluator *evaluator, const double *x,
+                                               int run, CzEvaluation *evaluation, CzError *error);
+
 /* Whether a metric of cz_evaluator_set_values, by its number, has a place in any scenario. */
 bool cz_evaluator_has_metric(const CzEvaluator *evaluator, int wanted);
 

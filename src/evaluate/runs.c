@@ -444,6 +444,39 @@ CzStatus cz_evaluator_repeat(const CzEvaluator *evaluator, const CzManner *manne
     return evaluate_all(&settings, 1, x, evaluation, NULL, error);
 }
 
+/* Marks the scenario of the kept run of a number. */
+static void mark_scenario(const CzEvaluator *evaluator, int run, bool *some) {
+    for (int s = 0; s < evaluator->n_scene; s++)
+        some[s] = cz_evaluator_has_run_of(evaluator, s) && run-- == 0;
+}
+
+CzStatus cz_evaluator_record_run(const CzEvaluator *evaluator, const double *x, int run,
+                                 CzEvaluation *evaluation, CzError *error) {
+    bool *some = calloc((size_t)evaluator->n_scene, sizeof *some);
+    evaluation->run = calloc((size_t)run + 1, sizeof *evaluation->run);
+    CzEvaluation alone = {0};
+    CzStatus status = CZ_OK;
+    if (some == NULL || evaluation->run == NULL)
+        status = cz_no_memory(error, "the runs");
+    if (status == CZ_OK) {
+        mark_scenario(evaluator, run, some);
+        const Block settings = {.evaluator = evaluator,
+                                .some = some,
+                                .record = true,
+                                .keep = true,
+                                .manner = evaluator->manner};
+        status = evaluate_all(&settings, 1, x, &alone, NULL, error);
+    }
+    if (status == CZ_OK && alone.n_run == 1) {
+        evaluation->run[run] = alone.run[0];
+        evaluation->n_run = run + 1;
+        alone.n_run = 0;
+    }
+    cz_evaluation_free(&alone);
+    free(some);
+    return status;
+}
+
 void cz_evaluation_free(CzEvaluation *evaluation) {
     if (evaluation == NULL)
         return;

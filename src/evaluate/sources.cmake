@@ -7,6 +7,7 @@ set(CZ_SOURCES_evaluate
     choices.c
     climbing.c
     compose.c
+    deciding_run.c
     design.c
     design_rules.c
     draws.c

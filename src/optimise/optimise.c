@@ -147,7 +147,8 @@ static CzStatus confirm_best(const Confirmation *confirmation, CzError *error) {
     return status;
 }
 
-/* Evaluates start and best design again, from the file's numbers, with all channels recorded. */
+/* Evaluates start and best design again, from the file's numbers; the best one with all channels
+ * recorded. */
 static CzStatus confirm(CzEvaluator *evaluator, const CzSubspace *subspace, CzOutcome *outcome,
                         CzError *error) {
     const Confirmation confirmation = {
@@ -157,7 +158,7 @@ static CzStatus confirm(CzEvaluator *evaluator, const CzSubspace *subspace, CzOu
         .x = cz_outcome_numbers(outcome, (size_t)outcome->n_variable)};
     if (confirmation.x == NULL)
         return cz_no_memory(error, "the outcome");
-    CZ_TRY(cz_evaluate(evaluator, 1, outcome->start, true, &outcome->start_evaluation, error));
+    CZ_TRY(cz_outcome_evaluate_start(evaluator, outcome, error));
     CZ_TRY(confirm_best(&confirmation, error));
     cz_outcome_mark_bounds(evaluator, outcome);
     return CZ_OK;
@@ -264,6 +265,7 @@ static CzStatus fill_outcome(CzEvaluator *evaluator, CzCombinations *combination
         conclude_verification(combinations, options->evaluations, outcome);
     }
     CZ_TRY(relax(evaluator, options, outcome, error));
+    CZ_TRY(cz_outcome_record_start(evaluator, outcome, error));
     if (options->no_sensitivities)
         return CZ_OK;
     CZ_TRY(cz_sensitivity_take(evaluator, options->stop, outcome, error));

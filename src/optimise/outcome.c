@@ -1,6 +1,7 @@
 /* Memory of an outcome, its bounds and its verification. */
 #include "optimise/outcome.h"
 #include "base/error.h"
+#include "evaluate/deciding_run.h"
 #include "evaluate/listed.h"
 
 #include <stdio.h>
@@ -157,6 +158,19 @@ void cz_outcome_cut_short(CzOutcome *outcome, const char *part) {
  *
  * There is no search; start and best design are evaluated again. */
 
+CzStatus cz_outcome_evaluate_start(CzEvaluator *evaluator, CzOutcome *outcome, CzError *error) {
+    return cz_evaluate(evaluator, 1, outcome->start, !cz_evaluator_can_select(evaluator),
+                       &outcome->start_evaluation, error);
+}
+
+CzStatus cz_outcome_record_start(const CzEvaluator *evaluator, CzOutcome *outcome, CzError *error) {
+    const int run = cz_deciding_run(&outcome->best_evaluation);
+    if (run < 0 || outcome->start_evaluation.n_run > 0)
+        return CZ_OK;
+    return cz_evaluator_record_run(evaluator, outcome->start, run, &outcome->start_evaluation,
+                                   error);
+}
+
 static CzStatus fill(CzEvaluator *evaluator, const CzRecall *recall, CzOutcome *outcome,
                      CzError *error) {
     const CzOptimiseOptions options = cz_optimise_options_default();
@@ -167,10 +181,11 @@ static CzStatus fill(CzEvaluator *evaluator, const CzRecall *recall, CzOutcome *
     memcpy(outcome->trial, recall->trial, n_trial * sizeof *outcome->trial);
     memcpy(outcome->trial_x, recall->trial_x, n_trial * n * sizeof *outcome->trial_x);
     cz_outcome_mark_bounds(evaluator, outcome);
-    CZ_TRY(cz_evaluate(evaluator, 1, outcome->start, true, &outcome->start_evaluation, error));
+    CZ_TRY(cz_outcome_evaluate_start(evaluator, outcome, error));
     CZ_TRY(cz_evaluate(evaluator, 1, outcome->best, true, &outcome->best_evaluation, error));
     CZ_TRY(cz_outcome_verify(evaluator, &options, outcome, error));
     CZ_TRY(cz_relaxation_find(evaluator, &options, outcome, error));
+    CZ_TRY(cz_outcome_record_start(evaluator, outcome, error));
     if (outcome->status == CZ_OUTCOME_INTERRUPTED)
         return CZ_OK;
     CZ_TRY(cz_sensitivity_take(evaluator, NULL, outcome, error));

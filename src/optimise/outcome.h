@@ -60,6 +60,14 @@ CZ_MUST_CHECK CzStatus cz_sensitivity_take(CzEvaluator *evaluator,
                                            const volatile sig_atomic_t *stop, CzOutcome *outcome,
                                            CzError *error);
 
+/* Evaluates the start (outcome.c). Once the best design is final, the deciding one of its runs is
+ * recorded for the start, too: all runs of both together can need gigabytes. Statuses: those of
+ * cz_evaluate. */
+CZ_MUST_CHECK CzStatus cz_outcome_evaluate_start(CzEvaluator *evaluator, CzOutcome *outcome,
+                                                 CzError *error);
+CZ_MUST_CHECK CzStatus cz_outcome_record_start(const CzEvaluator *evaluator, CzOutcome *outcome,
+                                               CzError *error);
+
 /* Fills `stationarity` and `multiplier` from the sensitivities (stationarity.c). Statuses: CZ_OK,
  * CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_stationarity_find(const CzEvaluator *evaluator, CzOutcome *outcome,

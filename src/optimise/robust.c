@@ -422,12 +422,12 @@ static CzStatus fill_outcome(Robust *robust, CzError *error) {
     memcpy(outcome->trial_x, robust->trial_x, n_trial * n * sizeof *outcome->trial_x);
     outcome->width = robust->options.width;
     cz_outcome_mark_bounds(result->evaluator, outcome);
-    CZ_TRY(
-        cz_evaluate(result->evaluator, 1, outcome->start, true, &outcome->start_evaluation, error));
+    CZ_TRY(cz_outcome_evaluate_start(result->evaluator, outcome, error));
     CZ_TRY(
         cz_evaluate(result->evaluator, 1, outcome->best, true, &outcome->best_evaluation, error));
     conclude(robust, outcome);
     CZ_TRY(cz_outcome_verify(result->evaluator, &robust->options, outcome, error));
+    CZ_TRY(cz_outcome_record_start(result->evaluator, outcome, error));
     CZ_TRY(cz_sensitivity_take(result->evaluator, robust->options.stop, outcome, error));
     CZ_TRY(cz_margins_order(result->evaluator, outcome, error));
     return cz_stationarity_find(result->evaluator, outcome, error);

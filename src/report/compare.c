@@ -1,6 +1,7 @@
 /* Comparison of runs: checks, interfaces and cars that differ; on a terminal. */
 #include "crushzone/report.h"
 
+#include "evaluate/deciding_run.h"
 #include "report/checks_table.h"
 #include "report/compare.h"
 #include "report/compared_names.h"
@@ -13,7 +14,7 @@
 
 int cz_compared_scenario(const CzReport *report, int i) {
     const CzReportRun *run = report->compared;
-    const int own = run[i].scenario >= 0 ? run[i].scenario : cz_page_deciding(run[i].evaluation);
+    const int own = run[i].scenario >= 0 ? run[i].scenario : cz_deciding_run(run[i].evaluation);
     if (i == 0)
         return own;
     const CzRunSummary *first = cz_compared_run(report, 0);

@@ -84,10 +84,6 @@ void cz_page_free(CzPage *page);
 CZ_MUST_CHECK CzStatus cz_page_collect_deciding(CzPage *page, CzError *error);
 void cz_page_free_deciding(CzPage *page);
 
-/* The deciding scenario: one that failed, else the one with the worst check, else the first that
- * ran; -1 when none did. */
-int cz_page_deciding(const CzEvaluation *evaluation);
-
 /* Values of a curve of the page (n_sample); NULL when there are none. */
 static inline const double *cz_page_values(const CzPage *page, CzDrawn drawn, int place) {
     return cz_drawn_values(page->run, &page->made, drawn, place);

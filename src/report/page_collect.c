@@ -15,28 +15,6 @@
 enum { INPUT_POINTS = 600 };
 #define INPUT_ROOM 1.5 /* input curves end at this share of the largest force of the run */
 
-int cz_page_deciding(const CzEvaluation *evaluation) {
-    const CzCheckResult *worst = NULL;
-    int found = -1;
-    for (int i = 0; i < evaluation->n_run; i++) {
-        const CzRunSummary *run = cz_kept_run(evaluation, i);
-        if (run == NULL)
-            continue;
-        if (run->status != CZ_OK)
-            return i;
-        found = found < 0 ? i : found;
-        for (int k = 0; k < evaluation->n_check; k++) {
-            const CzCheckResult *check = &evaluation->check[k];
-            if (check->scenario != NULL && strcmp(check->scenario, run->scenario) == 0 &&
-                !isnan(check->value) && (worst == NULL || cz_check_is_worse(check, worst))) {
-                worst = check;
-                found = i;
-            }
-        }
-    }
-    return found;
-}
-
 /* The problem's scenario of that name; the runs of an evaluation may be fewer. */
 static int scenario_named(const CzProblem *problem, const char *name) {
     for (int i = 0; i < cz_problem_n_scenario(problem); i++)

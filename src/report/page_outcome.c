@@ -2,6 +2,7 @@
 #include "report/page.h"
 
 #include "base/error.h"
+#include "evaluate/deciding_run.h"
 #include "evaluate/evaluator.h"
 #include "report/checks_table.h"
 #include "report/charts.h"
@@ -279,7 +280,7 @@ CzStatus cz_page_write_outcome(const CzReport *report, FILE *stream, CzError *er
     const CzOutcome *outcome = report->outcome;
     const CzEvaluation *evaluation = &outcome->best_evaluation;
     const CzEvaluation *start = &outcome->start_evaluation;
-    const int scenario = cz_page_deciding(evaluation);
+    const int scenario = cz_deciding_run(evaluation);
     const bool has_start =
         start->run != NULL && scenario < start->n_run && start->run[scenario] != NULL;
     const CzPageOther before = {"before", has_start ? start->run[scenario] : NULL};

@@ -4,6 +4,7 @@
 #include "crushzone/report.h"
 
 #include "base/error.h"
+#include "evaluate/deciding_run.h"
 #include "evaluate/not_covered.h"
 #include "optimise/robust_cases.h"
 #include "problem/problem.h"
@@ -441,7 +442,7 @@ static CzStatus write_all(CzFolder *folder, Results *results, CzError *error) {
     for (int i = 0; i < results->run.evaluation->n_run; i++)
         if (cz_kept_run(results->run.evaluation, i) != NULL)
             CZ_TRY(write_run(folder, results, i, error));
-    results->scenario = cz_page_deciding(results->run.evaluation);
+    results->scenario = cz_deciding_run(results->run.evaluation);
     results->is_top = true;
     return results->scenario >= 0 && results->computed != NULL
                ? write_file(folder, "report.html", REPORT, results, error)

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/suggest.h"
+#include "evaluate/deciding_run.h"
 #include "report/charts.h"
 #include "report/elevation.h"
 #include "report/figure.h"
@@ -22,7 +23,7 @@ const char *cz_report_chart_name(int index) {
 /* Finds the scenario to draw; fails when its run was not kept. */
 static CzStatus find_scenario(const CzEvaluation *evaluation, int requested, int *scenario,
                               CzError *error) {
-    *scenario = requested >= 0 ? requested : cz_page_deciding(evaluation);
+    *scenario = requested >= 0 ? requested : cz_deciding_run(evaluation);
     const bool has_run = *scenario >= 0 && *scenario < evaluation->n_run &&
                          cz_kept_run(evaluation, *scenario) != NULL;
     return has_run ? CZ_OK : cz_fail(error, CZ_STATUS_INPUT, "no run was kept to draw");

@@ -1,6 +1,7 @@
 /* Stand-ins for the input of a report: only the values matter here, not their origin. */
 #include "report/stand_in.h"
 
+#include "evaluate/deciding_run.h"
 #include "evaluate/evaluator.h"
 #include "evaluate/metric.h"
 #include "text/node.h"
@@ -149,7 +150,7 @@ CzTrack cz_problem_track(const CzProblem *problem) {
 }
 
 /* The content of figures is tested elsewhere; here a report only has to exist. */
-int cz_page_deciding(const CzEvaluation *evaluation) {
+int cz_deciding_run(const CzEvaluation *evaluation) {
     return evaluation->n_run > 0 ? 0 : -1;
 }
 void cz_page_folder_name(const char *scenario, char name[CZ_NAME_ROOM]) {

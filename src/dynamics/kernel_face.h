@@ -47,15 +47,15 @@ static void list_faces(CzBlock *d, const Contact *contact, double step, FaceChai
     }
 }
 
-/* The closing speed at first contact is frozen; the rise of the strengths follows from it. */
-static void freeze_speed(const CzBlock *d, const Contact *restrict contact, FaceChain *of) {
-    const CzFaceRows *restrict rows = &d->parameter.face;
-    const double *restrict speed = d->memory->face.speed;
-    double *restrict next = d->next_memory->face.speed;
+/* The closing speed at first contact is frozen; the rise of the strengths of both sides follows
+ * from it. */
+static void freeze_speed(const Contact *restrict contact, const double *restrict speed,
+                         double *restrict next, const double *restrict factor_behind,
+                         const double *restrict factor_ahead, CzRow *restrict rise) {
     CZ_LANES (i) {
         next[i] = cz_first_speed(contact->closure[i], contact->rate[i], speed[i]);
-        of->rise[0][i] = rows->side[0].speed_factor[i] * next[i];
-        of->rise[1][i] = rows->side[1].speed_factor[i] * next[i];
+        rise[0][i] = factor_behind[i] * next[i];
+        rise[1][i] = factor_ahead[i] * next[i];
     }
 }
 
@@ -197,7 +197,9 @@ static void faces(const CzDynamics *dynamics, int index, double step) {
     FaceChain of;
     memcpy(d->published.face.closure, contact.closure, sizeof(CzRow));
     list_faces(d, &contact, step, &of);
-    freeze_speed(d, &contact, &of);
+    freeze_speed(&contact, d->memory->face.speed, d->next_memory->face.speed,
+                 d->parameter.face.side[0].speed_factor, d->parameter.face.side[1].speed_factor,
+                 of.rise);
     push_faces(d, &contact, &of);
     if (of.chain.falls) {
         chain_top(&of.chain);

@@ -5,6 +5,7 @@
 
 #include "dynamics/kernel_buffer.h"
 #include "dynamics/kernel_contact_line.h"
+#include "dynamics/kernel_face.h"
 #include "dynamics/stored.h"
 #include "laws/slider.h"
 
@@ -13,18 +14,6 @@
 typedef struct {
     _Alignas(64) CzRow of[2];
 } PlateRise;
-
-static void freeze_plate_speed(CzBlock *d, const Contact *restrict contact,
-                               PlateRise *restrict rise) {
-    const CzSideBufferRows *restrict rows = &d->parameter.side_buffers;
-    const double *restrict speed = d->memory->side_buffers.speed;
-    double *restrict next = d->next_memory->side_buffers.speed;
-    CZ_LANES (i) {
-        next[i] = cz_first_speed(contact->closure[i], contact->rate[i], speed[i]);
-        rise->of[0][i] = rows->side[0].speed_factor[i] * next[i];
-        rise->of[1][i] = rows->side[1].speed_factor[i] * next[i];
-    }
-}
 
 static void list_side_buffers(CzBlock *d, const Contact *contact, double step,
                               const PlateRise *rise, BufferChain *of) {
@@ -74,7 +63,8 @@ static void side_buffers(CzBlock *d, double step) {
     BufferChain of;
     line_up_contact(d, end_at(d, 0), end_at(d, 1), &rows->contact, &contact);
     memcpy(d->published.side_buffers.closure, contact.closure, sizeof(CzRow));
-    freeze_plate_speed(d, &contact, &rise);
+    freeze_speed(&contact, d->memory->side_buffers.speed, d->next_memory->side_buffers.speed,
+                 rows->side[0].speed_factor, rows->side[1].speed_factor, rise.of);
     list_side_buffers(d, &contact, step, &rise, &of);
     memset(of.chain.now.lowest, 0, sizeof(CzRow));
     memcpy(of.chain.now.active, rows->exists, sizeof(CzRow));

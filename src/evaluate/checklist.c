@@ -291,15 +291,20 @@ static CzStatus choose_constraints(CzChecklistBuilder *builder) {
     return CZ_OK;
 }
 
+static CzChecklistBuilder builder_of(const CzProblem *problem, int n_scene, const CzScene *scene,
+                                     CzArena *arena, CzChecklist *checklist, CzError *error) {
+    return (CzChecklistBuilder){.problem = problem,
+                                .n_scene = n_scene,
+                                .scene = scene,
+                                .arena = arena,
+                                .list = checklist,
+                                .error = error};
+}
+
 CzStatus cz_checklist_build(const CzProblem *problem, int n_scene, const CzScene *scene,
                             CzArena *arena, CzChecklist *checklist, CzError *error) {
     *checklist = (CzChecklist){0};
-    CzChecklistBuilder builder = {.problem = problem,
-                                  .n_scene = n_scene,
-                                  .scene = scene,
-                                  .arena = arena,
-                                  .list = checklist,
-                                  .error = error};
+    CzChecklistBuilder builder = builder_of(problem, n_scene, scene, arena, checklist, error);
     const CzInput *input = cz_problem_input(problem);
     const bool has_rules = !input->checks.given || input->checks.design_rules;
     CZ_TRY(check_overrides_exist(&builder, has_rules));
@@ -319,12 +324,7 @@ CzStatus cz_checklist_build(const CzProblem *problem, int n_scene, const CzScene
 CzStatus cz_checklist_aim(const CzProblem *problem, const CzAim *aim, int n_scene,
                           const CzScene *scene, CzArena *arena, CzChecklist *checklist,
                           CzError *error) {
-    CzChecklistBuilder builder = {.problem = problem,
-                                  .n_scene = n_scene,
-                                  .scene = scene,
-                                  .arena = arena,
-                                  .list = checklist,
-                                  .error = error};
+    CzChecklistBuilder builder = builder_of(problem, n_scene, scene, arena, checklist, error);
     if (!isnan(aim->margin)) {
         checklist->aimed_margin = fmax(0, aim->margin);
         checklist->required_margin = fmax(checklist->required_margin, aim->margin);

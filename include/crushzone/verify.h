@@ -68,7 +68,8 @@ typedef struct CzVerification {
     double largest_change[CZ_N_VERIFY_METHOD]; /* over all values; NaN when not done */
     int worst[CZ_N_VERIFY_METHOD];             /* value with that change; -1 when none */
     int n_flip[CZ_N_VERIFY_METHOD];            /* changed verdicts */
-    double wall_s[CZ_N_VERIFY_METHOD];         /* for run_info only */
+    double run_s[CZ_N_VERIFY_METHOD];          /* computing times of the runs, added up */
+    double wall_s;                             /* for run_info only */
     CzVerdict verdict; /* pass: every requested method is done, changes results by at most the limit
                           and reverses no verdict */
 } CzVerification;

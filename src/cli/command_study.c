@@ -44,7 +44,7 @@ static int judge(const CzArguments *arguments, const CzVerification *verificatio
     for (int method = 0; method < CZ_N_VERIFY_METHOD; method++)
         if (verification->is_done[method] && arguments->text[CZ_OPTION_VERBOSE] != NULL)
             cz_print_note(arguments, "%s: %.3g s", cz_verify_method_text((CzVerifyMethod)method),
-                          verification->wall_s[method]);
+                          verification->run_s[method]);
     if (verification->status != CZ_OK)
         return cz_status_exit_code(CZ_STATUS_RUN_FAILED);
     return verification->verdict == CZ_VERDICT_PASS ? 0 : cz_status_exit_code(CZ_STATUS_VIOLATED);

@@ -18,12 +18,12 @@ typedef struct CzManner {
     bool brief; /* runs may end as soon as their results are final; not those of a fit */
 } CzManner;
 
-/* Evaluates one design with other settings of the runs, which are kept without channels; x as in
- * cz_evaluate.
+/* Evaluates one design with each of n other settings of the runs, at least one, all of them side by
+ * side; the runs are kept without channels. x as in cz_evaluate, evaluation (n).
  */
-CZ_MUST_CHECK CzStatus cz_evaluator_repeat(const CzEvaluator *evaluator, const CzManner *manner,
-                                           const double *x, CzEvaluation *evaluation,
-                                           CzError *error);
+CZ_MUST_CHECK CzStatus cz_evaluator_repeat(const CzEvaluator *evaluator, int n,
+                                           const CzManner *manner, const double *x,
+                                           CzEvaluation *evaluation, CzError *error);
 
 /* Whether the parameters of the problem are fitted to measurements: the objective is a sum of
  * squares, and the last constraints are the matches. */

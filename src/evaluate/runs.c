@@ -35,6 +35,8 @@ typedef struct Block {
     bool keep_pulses;    /* those of the vehicles */
     CzManner manner;
     CzRunPlan plan;
+    CzEvaluation *evaluation; /* results (n_point) */
+    double *detail;           /* (n_point x n_detail); NULL: not requested */
 } Block;
 
 /* ---- designs that are reread ------------------------------------------------------------------
@@ -120,8 +122,7 @@ static CzSimulateOptions options_of(const Block *block) {
 }
 
 /* Runs the items of a chunk side by side. */
-static CzStatus run_chunk(int index, void *data, CzError *error) {
-    const Block *block = data;
+static CzStatus run_chunk(const Block *block, int index, CzError *error) {
     const CzEvaluator *evaluator = block->evaluator;
     const CzRunChunk *chunk = &block->plan.chunk[index];
     const CzRunItem *item = &block->plan.item[chunk->first];
@@ -216,8 +217,7 @@ static int number_of(ChunkDesigns *designs, int design) {
     return i;
 }
 
-static bool request_chunk(int index, void *data, CzMemoryText *request) {
-    const Block *block = data;
+static bool request_chunk(const Block *block, int index, CzMemoryText *request) {
     const CzEvaluator *evaluator = block->evaluator;
     const CzRunChunk *chunk = &block->plan.chunk[index];
     ChunkDesigns designs = {0};
@@ -240,8 +240,7 @@ static bool request_chunk(int index, void *data, CzMemoryText *request) {
     return true;
 }
 
-static CzStatus take_chunk(int index, void *data, CzReading *answer, CzError *error) {
-    Block *block = data;
+static CzStatus take_chunk(Block *block, int index, CzReading *answer, CzError *error) {
     const CzRunChunk *chunk = &block->plan.chunk[index];
     const CzRunItem *item = &block->plan.item[chunk->first];
     for (int i = 0; i < chunk->n; i++)
@@ -261,7 +260,7 @@ static CzStatus answer_chunk(Block *block, int n, const int *place, CzMemoryText
     if (block->plan.n_item < n) /* a design that only this process refuses */
         return cz_fail(error, CZ_STATUS_INPUT, "a design breaks a rule");
     block->plan.chunk[0] = (CzRunChunk){0, n};
-    CZ_TRY(run_chunk(0, block, error));
+    CZ_TRY(run_chunk(block, 0, error));
     for (int i = 0; i < n; i++)
         cz_run_put(answer, block->run[place[2 * i] * block->evaluator->n_scene + place[2 * i + 1]]);
     return CZ_OK;
@@ -292,25 +291,11 @@ const CzStudyKind cz_study_of_runs = {cz_evaluator_open, answer_runs, cz_evaluat
 
 /* ---- a block --------------------------------------------------------------------------------- */
 
-static CzStatus run_block(Block *block, CzError *error) {
-    static const CzTaskData chunks = {.request = request_chunk, .take = take_chunk};
-    const CzEvaluator *evaluator = block->evaluator;
-    CzTaskData plain = chunks;
-    plain.study = evaluator->study;
-    const CzSimulateOptions options = options_of(block);
-    const bool is_single = block->record || options.integrator != CZ_INTEGRATOR_ZHAI;
-    CZ_TRY(cz_run_plan_begin(&block->plan, block->n_point * evaluator->n_scene, error));
-    list_runs(block);
-    CZ_TRY(cz_run_plan_cut(&block->plan, &options, is_single, evaluator->executor.n_place, error));
-    CZ_TRY(cz_tasks_share(&plain, block->plan.n_chunk, run_chunk, block, error));
-    note_lengths(block);
-    return CZ_OK;
-}
-
 /* Evaluates each design of a finished block; keeps its runs if requested; fills the details, NaN
  * for designs that failed, unless `detail` is NULL. */
-static CzStatus compose_block(Block *block, CzEvaluation *evaluation, double *detail,
-                              CzError *error) {
+static CzStatus compose_block(Block *block, CzError *error) {
+    CzEvaluation *evaluation = block->evaluation;
+    double *detail = block->detail;
     const int n_scene = block->evaluator->n_scene;
     const CzRunSummary **summary = calloc((size_t)n_scene, sizeof *summary);
     if (summary == NULL)
@@ -354,23 +339,74 @@ static bool needs_pulses(const CzEvaluator *evaluator) {
     return needs;
 }
 
-/* `settings` contains the settings of the runs and the results to keep. */
-static CzStatus evaluate_block(const Block *settings, int n_point, const double *x,
-                               CzEvaluation *evaluation, double *detail, CzError *error) {
-    Block block = *settings;
-    block.n_point = n_point;
-    block.x = x;
-    block.record |= block.evaluator->matches.needs_record;
-    block.keep_pulses = needs_pulses(block.evaluator);
-    block.manner.brief &= block.evaluator->matches.n_item == 0;
-    CzStatus status = begin_block(&block, error);
-    if (status == CZ_OK && block.begun != NULL)
-        take_begun(&block);
+/* Reads the designs of a block and plans its runs; ended also after a failure. */
+static CzStatus plan_block(Block *block, CzError *error) {
+    const CzEvaluator *evaluator = block->evaluator;
+    block->record |= evaluator->matches.needs_record;
+    block->keep_pulses = needs_pulses(evaluator);
+    block->manner.brief &= evaluator->matches.n_item == 0;
+    CZ_TRY(begin_block(block, error));
+    if (block->begun != NULL)
+        take_begun(block);
+    const CzSimulateOptions options = options_of(block);
+    const bool is_single = block->record || options.integrator != CZ_INTEGRATOR_ZHAI;
+    CZ_TRY(cz_run_plan_begin(&block->plan, block->n_point * evaluator->n_scene, error));
+    list_runs(block);
+    return cz_run_plan_cut(&block->plan, &options, is_single, evaluator->executor.n_place, error);
+}
+
+/* ---- blocks side by side --------------------------------------------------------------------- */
+
+/* Blocks whose chunks are one batch of tasks, numbered from one block to the next. */
+typedef struct Blocks {
+    int n;
+    Block *block; /* (n) */
+} Blocks;
+
+/* The block of a task, whose number becomes that of the chunk in the block. */
+static Block *block_of(const Blocks *blocks, int *index) {
+    Block *block = blocks->block;
+    for (; *index >= block->plan.n_chunk; block++)
+        *index -= block->plan.n_chunk;
+    return block;
+}
+
+static CzStatus run_task(int index, void *data, CzError *error) {
+    const Block *block = block_of(data, &index);
+    return run_chunk(block, index, error);
+}
+
+static bool request_task(int index, void *data, CzMemoryText *request) {
+    const Block *block = block_of(data, &index);
+    return request_chunk(block, index, request);
+}
+
+static CzStatus take_task(int index, void *data, CzReading *answer, CzError *error) {
+    Block *block = block_of(data, &index);
+    return take_chunk(block, index, answer, error);
+}
+
+/* Evaluates the designs of all blocks, which contain the settings of the runs and the results to
+ * keep. */
+static CzStatus evaluate_blocks(const Blocks *blocks, CzError *error) {
+    const CzTaskData plain = {
+        .study = blocks->block->evaluator->study, .request = request_task, .take = take_task};
+    CzStatus status = CZ_OK;
+    int n_chunk = 0;
+    for (int i = 0; i < blocks->n && status == CZ_OK; i++) {
+        status = plan_block(&blocks->block[i], error);
+        n_chunk += blocks->block[i].plan.n_chunk;
+    }
     if (status == CZ_OK)
-        status = run_block(&block, error);
-    if (status == CZ_OK)
-        status = compose_block(&block, evaluation, detail, error);
-    end_block(&block);
+        status = cz_tasks_share(&plain, n_chunk, run_task, (void *)blocks, error);
+    for (int i = 0; i < blocks->n; i++) {
+        Block *block = &blocks->block[i];
+        if (status == CZ_OK) {
+            note_lengths(block);
+            status = compose_block(block, error);
+        }
+        end_block(block);
+    }
     return status;
 }
 
@@ -381,11 +417,12 @@ static CzStatus evaluate_all(const Block *settings, int n_point, const double *x
     memset(evaluation, 0, (size_t)n_point * sizeof *evaluation);
     CzStatus status = CZ_OK;
     for (int first = 0; first < n_point && status == CZ_OK; first += BLOCK) {
-        const int n = n_point - first < BLOCK ? n_point - first : BLOCK;
-        status =
-            evaluate_block(settings, n, x != NULL ? x + first * evaluator->design.n_variable : NULL,
-                           evaluation + first,
-                           detail != NULL ? detail + first * evaluator->n_detail : NULL, error);
+        Block block = *settings;
+        block.n_point = n_point - first < BLOCK ? n_point - first : BLOCK;
+        block.x = x != NULL ? x + first * evaluator->design.n_variable : NULL;
+        block.evaluation = evaluation + first;
+        block.detail = detail != NULL ? detail + first * evaluator->n_detail : NULL;
+        status = evaluate_blocks(&(Blocks){1, &block}, error);
     }
     for (int i = 0; status != CZ_OK && i < n_point; i++)
         cz_evaluation_free(&evaluation[i]);
@@ -438,10 +475,24 @@ CzStatus cz_evaluator_search_remaining(const CzEvaluator *evaluator, const bool 
     return status;
 }
 
-CzStatus cz_evaluator_repeat(const CzEvaluator *evaluator, const CzManner *manner, const double *x,
-                             CzEvaluation *evaluation, CzError *error) {
-    const Block settings = {.evaluator = evaluator, .keep = true, .manner = *manner};
-    return evaluate_all(&settings, 1, x, evaluation, NULL, error);
+CzStatus cz_evaluator_repeat(const CzEvaluator *evaluator, int n, const CzManner *manner,
+                             const double *x, CzEvaluation *evaluation, CzError *error) {
+    const Blocks blocks = {n, calloc((size_t)n + 1, sizeof *blocks.block)};
+    memset(evaluation, 0, (size_t)n * sizeof *evaluation);
+    if (blocks.block == NULL)
+        return cz_no_memory(error, "the runs");
+    for (int i = 0; i < n; i++)
+        blocks.block[i] = (Block){.evaluator = evaluator,
+                                  .n_point = 1,
+                                  .x = x,
+                                  .keep = true,
+                                  .manner = manner[i],
+                                  .evaluation = &evaluation[i]};
+    const CzStatus status = evaluate_blocks(&blocks, error);
+    for (int i = 0; status != CZ_OK && i < n; i++)
+        cz_evaluation_free(&evaluation[i]);
+    free(blocks.block);
+    return status;
 }
 
 /* Marks the scenario of the kept run of a number. */

@@ -59,7 +59,7 @@ static CzStatus run_bench(const Sampler *sampler, const CzCaseBench *bench, int 
     CzManner manner = bench->evaluator->manner;
     manner.brief = sampler->options->brief;
     manner.track = manner.brief ? CZ_TRACK_USE_SEARCH : manner.track;
-    CzStatus status = cz_evaluator_repeat(bench->evaluator, &manner, NULL, &evaluation, error);
+    CzStatus status = cz_evaluator_repeat(bench->evaluator, 1, &manner, NULL, &evaluation, error);
     if (status == CZ_OK && sample[0] == CZ_UNCHANGED_CASE)
         cz_sampling_keep_bare(sampler->sampling, bench, &evaluation);
     for (int k = 0; status == CZ_OK && sample[0] != CZ_UNCHANGED_CASE && k < n; k++)

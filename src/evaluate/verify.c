@@ -267,43 +267,62 @@ static void write_failure(CzVerification *verification, const char *method,
     }
 }
 
-/* Computes the design by one method. */
-static CzStatus run_method(CzVerification *verification, const CzEvaluator *evaluator,
-                           CzVerifyMethod method, const double *x, const Number *record,
-                           Number *again, CzError *error) {
-    CzManner manner = manner_of(evaluator, method, verification->solver_step);
-    CzEvaluation evaluation = {0};
-    manner.brief = verification->until_settled;
-    CZ_TRY(cz_evaluator_repeat(evaluator, &manner, x, &evaluation, error));
-    if (evaluation.status != CZ_OK) {
-        write_failure(verification, methods[method].text, &evaluation);
-    } else {
-        verification->is_done[method] = true;
-        verification->largest_change[method] = 0.0;
-        list_numbers(evaluator, &evaluation, again);
-        for (int i = 0; i < verification->n_value; i++)
-            compare(verification, method, i, &record[i], &again[i]);
+/* Compares the evaluation of a method with the production run. */
+static void judge_method(CzVerification *verification, const CzEvaluator *evaluator,
+                         CzVerifyMethod method, const CzEvaluation *evaluation,
+                         const Number *record, Number *again) {
+    for (int i = 0; i < evaluation->n_run; i++)
+        verification->run_s[method] += cz_run_summary(evaluation->run[i])->wall_s;
+    if (evaluation->status != CZ_OK) {
+        write_failure(verification, methods[method].text, evaluation);
+        return;
     }
-    cz_evaluation_free(&evaluation);
-    return CZ_OK;
+    verification->is_done[method] = true;
+    verification->largest_change[method] = 0.0;
+    list_numbers(evaluator, evaluation, again);
+    for (int i = 0; i < verification->n_value; i++)
+        compare(verification, method, i, &record[i], &again[i]);
 }
 
-/* Runs all methods; `number` has room for the numbers of the production run and, from `most` on,
- * for those of a method. */
+/* Settings of the runs of the requested methods, the solvers, which take longest, first; `place` is
+ * that of each method, -1 for one that is not requested. Returns how many there are. */
+static int list_manners(const CzVerification *verification, const CzEvaluator *evaluator,
+                        int *place, CzManner *manner) {
+    int n = 0;
+    for (int is_fixed_step = 0; is_fixed_step < 2; is_fixed_step++)
+        for (int method = 0; method < CZ_N_VERIFY_METHOD; method++) {
+            CzManner own = manner_of(evaluator, (CzVerifyMethod)method, verification->solver_step);
+            own.brief = verification->until_settled;
+            if ((own.integrator == CZ_INTEGRATOR_ZHAI) != is_fixed_step)
+                continue;
+            const bool is_requested = (verification->methods & (1u << method)) != 0;
+            place[method] = is_requested ? n : -1;
+            if (is_requested)
+                manner[n++] = own;
+        }
+    return n;
+}
+
+/* Runs all methods side by side; `number` has room for the numbers of the production run and, from
+ * `most` on, for those of a method. */
 static CzStatus run_methods(CzVerification *verification, const CzEvaluator *evaluator,
                             const double *x, const CzEvaluation *record, Number *number, int most,
                             CzError *error) {
     verification->n_value = list_numbers(evaluator, record, number);
     for (int i = 0; i < verification->n_value; i++)
         begin_value(&verification->value[i], &number[i]);
-    for (int method = 0; method < CZ_N_VERIFY_METHOD; method++) {
-        if ((verification->methods & (1u << method)) == 0)
-            continue;
-        const double began = cz_clock();
-        CZ_TRY(run_method(verification, evaluator, (CzVerifyMethod)method, x, number, number + most,
-                          error));
-        verification->wall_s[method] = cz_clock() - began;
-    }
+    int place[CZ_N_VERIFY_METHOD];
+    CzManner manner[CZ_N_VERIFY_METHOD];
+    CzEvaluation evaluation[CZ_N_VERIFY_METHOD];
+    const int n = list_manners(verification, evaluator, place, manner);
+    if (n > 0)
+        CZ_TRY(cz_evaluator_repeat(evaluator, n, manner, x, evaluation, error));
+    for (int method = 0; method < CZ_N_VERIFY_METHOD; method++)
+        if (place[method] >= 0)
+            judge_method(verification, evaluator, (CzVerifyMethod)method,
+                         &evaluation[place[method]], number, number + most);
+    for (int i = 0; i < n; i++)
+        cz_evaluation_free(&evaluation[i]);
     return CZ_OK;
 }
 
@@ -342,7 +361,7 @@ static CzStatus find_settled(CzVerification *verification, const CzEvaluator *ev
                              CzEvaluation *settled, CzError *error) {
     CzManner manner = evaluator->manner;
     manner.brief = true;
-    CZ_TRY(cz_evaluator_repeat(evaluator, &manner, x, settled, error));
+    CZ_TRY(cz_evaluator_repeat(evaluator, 1, &manner, x, settled, error));
     verification->until_settled =
         settled->status == CZ_OK &&
         has_same_checks(evaluator, verification->limit, record, settled, number);
@@ -397,6 +416,7 @@ static CzStatus verify(CzVerification *verification, CzEvaluator *evaluator, con
 
 CzStatus cz_verify(CzEvaluator *evaluator, const double *x, const CzEvaluation *record,
                    const CzVerifyOptions *options, CzVerification **made, CzError *error) {
+    const double began = cz_clock();
     const CzVerifyOptions chosen = options != NULL ? *options : cz_verify_options_default();
     CzVerification *verification = calloc(1, sizeof *verification);
     CzEvaluation own = {0};
@@ -405,10 +425,11 @@ CzStatus cz_verify(CzEvaluator *evaluator, const double *x, const CzEvaluation *
     if (verification == NULL)
         return cz_no_memory(error, "the verification");
     if (record == NULL)
-        status = cz_evaluator_repeat(evaluator, &evaluator->manner, x, &own, error);
+        status = cz_evaluator_repeat(evaluator, 1, &evaluator->manner, x, &own, error);
     if (status == CZ_OK)
         status = verify(verification, evaluator, x, record != NULL ? record : &own, &chosen, error);
     cz_evaluation_free(&own);
+    verification->wall_s = cz_clock() - began;
     if (status == CZ_OK)
         *made = verification;
     else

@@ -151,7 +151,7 @@ static CzStatus run_nominal(CzChallenge *challenge, const CzCaseBench *bench, Cz
     CzEvaluation evaluation = {0};
     CzJudgedCase judged = {0};
     cz_evaluator_set_stop(bench->evaluator, parts->options.stop);
-    CzStatus status = cz_evaluator_repeat(bench->evaluator, &bench->evaluator->manner, parts->x,
+    CzStatus status = cz_evaluator_repeat(bench->evaluator, 1, &bench->evaluator->manner, parts->x,
                                           &evaluation, error);
     if (status == CZ_OK)
         status = cz_challenge_judge(challenge, bench, &evaluation, 0, result, &judged, error);

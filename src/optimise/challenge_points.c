@@ -150,7 +150,7 @@ static CzStatus run_bench(CzChallenge *challenge, const CzCaseBench *bench, int 
         return cz_no_memory(error, "the results of a point");
     cz_evaluator_set_stop(bench->evaluator, challenge->parts->options.stop);
     CzStatus status =
-        cz_evaluator_repeat(bench->evaluator, &manner, challenge->parts->x, &evaluation, error);
+        cz_evaluator_repeat(bench->evaluator, 1, &manner, challenge->parts->x, &evaluation, error);
     for (int k = 0; k < n && status == CZ_OK; k++) {
         CzJudgedCase judged;
         status = cz_challenge_judge(challenge, bench, &evaluation, k, result, &judged, error);

@@ -143,7 +143,7 @@ CzStatus cz_full_run(CzFullRun *run, CzError *error) {
     if (status != CZ_OK && error != NULL)
         *error = mistake;
     CZ_TRY(status);
-    CZ_TRY(cz_evaluator_repeat(run->bench.evaluator, &run->bench.evaluator->manner,
+    CZ_TRY(cz_evaluator_repeat(run->bench.evaluator, 1, &run->bench.evaluator->manner,
                                challenge->parts->x, &evaluation, error));
     run->result = malloc(((size_t)challenge->n_check + 1) * sizeof *run->result);
     status = run->result != NULL ? cz_challenge_judge(challenge, &run->bench, &evaluation, 0,

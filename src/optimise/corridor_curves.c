@@ -89,8 +89,8 @@ static CzStatus run_bench(CzCorridor *corridor, const CzCaseBench *bench, int n,
                           CzTriedCurve *curve, CzError *error) {
     CzEvaluation evaluation = {0};
     cz_evaluator_set_stop(bench->evaluator, corridor->parts->options.stop);
-    CzStatus status =
-        cz_evaluator_repeat(bench->evaluator, &bench->evaluator->manner, NULL, &evaluation, error);
+    CzStatus status = cz_evaluator_repeat(bench->evaluator, 1, &bench->evaluator->manner, NULL,
+                                          &evaluation, error);
     CzCheckResult *own = malloc(((size_t)evaluation.n_check + 1) * sizeof *own);
     if (own == NULL && status == CZ_OK)
         status = cz_no_memory(error, "the results of a curve");

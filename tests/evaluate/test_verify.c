@@ -273,6 +273,51 @@ static void an_objective_of_the_callers_own_is_verified_too(void **state) {
     end(&made);
 }
 
+/* An executor that counts batches and tasks. */
+typedef struct Counted {
+    int n_batch, n_task;
+} Counted;
+
+static CzStatus take_none(const CzExecutor *executor, CzTasks *tasks, CzError *error) {
+    (void)executor;
+    (void)tasks;
+    (void)error;
+    return CZ_OK;
+}
+
+static CzStatus run_and_count(const CzExecutor *executor, CzTasks *tasks, CzError *error) {
+    Counted *counted = executor->data;
+    (void)error;
+    for (int task = 0; task < cz_tasks_n(tasks); task++)
+        cz_task_run(tasks, task);
+    counted->n_batch++;
+    counted->n_task += cz_tasks_n(tasks);
+    return CZ_OK;
+}
+
+/* One batch has the production run, one all runs of the four methods that apply on a rigid track.
+ */
+static void methods_are_computed_side_by_side(void **state) {
+    (void)state;
+    Counted counted = {0};
+    const CzExecutor executor = {
+        .n_place = 8, .submit = take_none, .wait = run_and_count, .data = &counted};
+    CzEvaluatorOptions options = cz_evaluator_options_default();
+    CzVerification *verification = NULL;
+    CzEvaluator *evaluator = NULL;
+    CzProblem *problem = small_problem(limits);
+    options.executor = &executor;
+    assert_int_equal(cz_evaluator_build(problem, &options, &evaluator, NULL), CZ_OK);
+    assert_int_equal(cz_verify(evaluator, NULL, NULL, NULL, &verification, NULL), CZ_OK);
+    assert_int_equal(counted.n_batch, 2);
+    assert_true(counted.n_task > 2 * cz_problem_n_scenario(problem));
+    for (int method = 0; method < CZ_N_VERIFY_METHOD; method++)
+        assert_true(method == CZ_METHOD_TRACK || verification->run_s[method] > 0);
+    cz_verification_free(verification);
+    cz_evaluator_free(evaluator);
+    cz_problem_free(problem);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(numbers_that_do_not_depend_on_step_and_solver_pass),
@@ -283,6 +328,7 @@ int main(void) {
         cmocka_unit_test(a_yes_or_no_counts_by_its_verdict_alone),
         cmocka_unit_test(a_fit_is_verified_by_what_it_matches),
         cmocka_unit_test(methods_can_be_chosen),
+        cmocka_unit_test(methods_are_computed_side_by_side),
         cmocka_unit_test(runs_are_compared_until_they_settle_where_that_leaves_all_checks),
         cmocka_unit_test(a_production_run_that_did_not_end_is_a_failure),
         cmocka_unit_test(a_raised_flag_ends_the_verification),

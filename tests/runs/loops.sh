@@ -44,6 +44,12 @@ newton() { # steps by value and gradient find the stroke that is used to 90 %
     awk '/ reserve$/ { exit !($1 < 1e-4 && $1 > -1e-4) }' results.out
 }
 check "values and gradients of the files lead to the limit" newton
+in_a_folder() { # as Dakota does: in a work directory, with that and the folder where Dakota was started before PATH
+    named() { sed -n "s/^ *$1 *= *'\([^']*\)'$/\1/p" "$SOURCE/examples/dakota/dakota.in"; }
+    mkdir -p work.1 && parameters 800 350 1 >work.1/"$(named parameters_file)" && ! grep -q copy_files "$SOURCE/examples/dakota/dakota.in" &&
+        (cd work.1 && unset PROBLEM && PATH=.:$SOURCE/examples/dakota:$PATH && exits 0 "$(named analysis_drivers)" "$(named parameters_file)" "$(named results_file)") && [ "$(wc -l <work.1/results.out)" = 2 ]
+}
+check "the driver runs in a work directory as dakota.in names it" in_a_folder
 active() { parameters 800 350 2 >params.in && exits 0 driver && [ "$(cut -c1-2 results.out | tr '\n' /)" = '[ /[ /' ]; }
 check "only what the active set asks for is written" active
 hessian() { parameters 800 350 7 >params.in && exits 0 driver && says results.out 'second derivatives' && [ "$(head -1 results.out)" = fail ]; }

@@ -102,7 +102,7 @@ class Problem:
         component = self.model.component
         component.compute(_Values(component.inputs, False), _Values(component.outputs, True))
 
-    def compute_totals(self):
+    def compute_totals(self, of=None, wrt=None):
         component = self.model.component
         component.compute_partials(_Values(component.inputs, False), _Values(component.partials, True))
         return component.partials
@@ -112,7 +112,7 @@ class Problem:
 
     def get_val(self, name):
         component = self.model.component
-        return component.inputs.get(name, component.outputs.get(name)).copy()
+        return component.inputs.get(name, component.outputs.get(name))  # not a copy
 
     def run_driver(self):
         model, names = self.model, list(self.model.design_variables)

@@ -251,6 +251,14 @@ static bool read_all(Reader *reader, CzDakotaParameters *parameters) {
         if (!read_part(reader, METADATA, "MD_", &metadata))
             return false;
     }
+    if (metadata.n > 0) {
+        const CzDakotaEntry *entry = metadata.entry;
+        cz_mistake_at(reader->mistakes, reader->source, entry->line, entry->column,
+                      "metadata '%.60s' are not computed" CZ_HELP
+                      "remove 'metadata' from the responses of the study",
+                      entry->text);
+        return false;
+    }
     if (next_line(reader, &line))
         return REFUSE(reader, line.at,
                       "the evaluation ends before this line: a file has one evaluation" CZ_HELP

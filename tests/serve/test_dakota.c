@@ -100,8 +100,7 @@ static void both_formats_give_the_values_of_the_evaluator(void **state) {
         "                    { AC_2:a driver   =      \"s=" STROKE "\" }\n"
         "                    { AC_3:a driver   = \"peak=interfaces.peak_force_kN\" }\n"
         "                    { DAKOTA_EVAL_ID  =                  4:9:2 }\n"
-        "                    { DAKOTA_METADATA =                      1 }\n"
-        "                    { MD_1            =              \"seconds\" }\n",
+        "                    { DAKOTA_METADATA =                      0 }\n",
         "1 variables\n800 " FORCE "\n1 functions\n1 ASV_1:interfaces.peak_force_kN\n"
         "0 derivative_variables\n1 analysis_components\nfoo=bar AC_1:python driver\n1 eval_id\n"};
     const double peak = peak_of(800, 350);
@@ -231,6 +230,8 @@ static void a_mistake_is_reported_at_its_place(void **state) {
          5, 1, "the file has no variable 1, but 0"},
         {"0 variables\n" ONE END "0 metadata\n0 variables\n", 8, 1,
          "the evaluation ends before this line"},
+        {"0 variables\n" ONE END "1 metadata\nseconds MD_1\n", 8, 1,
+         "metadata 'seconds' are not computed"},
         {"0 variables\n2 functions\n1 ASV_1:objective\n1 ASV_2:objective\n" END, 4, 1,
          "the descriptor 'objective' is also in line 3"},
         {"1 variables\n3 nothing_mm\n" ONE END, 2, 1,

@@ -60,13 +60,13 @@ CZ_API int cz_first_place(CzChannelAt at, int index);
 /* Writes the name of a column, such as "F_A4-B1_kN", and returns it. `name` is that of the vehicle
  * or the interface (cz_place_index); for a channel of the run it is not used. */
 CZ_API const char *cz_channel_name(const CzChannelInfo *info, int place, const char *name,
-                                   char text[CZ_CHANNEL_ROOM]);
+                                   char text[CZ_CHANNEL_SIZE]);
 
 /* Finds the column that a text names in a run of n vehicles with these names, along +x. Whether the
  * run records it depends on the vehicles (cz_run_channel). When there is none, the column is not
  * changed, and `nearest`, unless NULL, becomes the nearest name, or empty. */
 CZ_API bool cz_column_find(const char *text, int n_vehicle, const char *const *vehicle,
-                           CzColumn *column, char nearest[CZ_CHANNEL_ROOM]);
+                           CzColumn *column, char nearest[CZ_CHANNEL_SIZE]);
 
 CZ_END_DECLARATIONS
 #endif

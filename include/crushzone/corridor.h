@@ -19,9 +19,9 @@
 CZ_BEGIN_DECLARATIONS
 
 enum {
-    CZ_MOST_PIECES = 8,
-    CZ_MOST_FACTORS = CZ_MOST_PIECES + 1,         /* of the pieces, then of the peak */
-    CZ_MOST_CURVE_POINTS = 2 * CZ_MOST_PIECES + 4 /* of a curve that is drawn */
+    CZ_MAX_PIECES = 8,
+    CZ_MAX_FACTORS = CZ_MAX_PIECES + 1,            /* of the pieces, then of the peak */
+    CZ_MAX_CORRIDOR_POINTS = 2 * CZ_MAX_PIECES + 4 /* of a curve that is drawn */
 };
 
 /* Shape of a curve within the corridor. */
@@ -42,13 +42,13 @@ typedef enum CzCurveShape {
 /* One curve that was tried. */
 typedef struct CzTriedCurve {
     CzCurveShape shape;
-    int number;                     /* of a quasi-random curve or of an adversary's, from 1 */
-    int sample;                     /* of the scatter, from 0; -1: the values of the file */
-    double factor[CZ_MOST_FACTORS]; /* on the forces of the pieces, then on the peak */
+    int number;                    /* of a quasi-random curve or of an adversary's, from 1 */
+    int sample;                    /* of the scatter, from 0; -1: the values of the file */
+    double factor[CZ_MAX_FACTORS]; /* on the forces of the pieces, then on the peak */
     CzSampleState state;
     CzVerdict verdict; /* of its checks; FAIL unless done */
     double margin;     /* of the check; NaN when it has none */
-    char check[CZ_LABEL_ROOM], scenario[CZ_NAME_ROOM], where[CZ_WHERE_ROOM]; /* the worst check, or
+    char check[CZ_LABEL_SIZE], scenario[CZ_NAME_SIZE], where[CZ_WHERE_SIZE]; /* the worst check, or
                                                                                 the failing one */
     char message[256]; /* why its run failed, or why the reader refuses it; empty otherwise */
 } CzTriedCurve;
@@ -73,16 +73,16 @@ typedef struct CzCorridor {
     int n_place;
     const char *const *place; /* ends that have it, such as "A6 front" (n_place) */
     int n_piece;
-    double piece_stroke[CZ_MOST_PIECES], piece_force[CZ_MOST_PIECES]; /* [m], [N] */
-    double peak;                                                      /* [N]; NaN for none */
+    double piece_stroke[CZ_MAX_PIECES], piece_force[CZ_MAX_PIECES]; /* [m], [N] */
+    double peak;                                                    /* [N]; NaN for none */
     bool exists;               /* the nominal curve passes, in every sample too */
     CzCorridorEdge edge[2];    /* lower, upper */
     double resolution, widest; /* of the widths, as shares */
     int n_point;
-    double stroke[CZ_MOST_CURVE_POINTS]; /* [m] (n_point) */
-    double lower[CZ_MOST_CURVE_POINTS], nominal[CZ_MOST_CURVE_POINTS],
-        upper[CZ_MOST_CURVE_POINTS]; /* [N] (n_point) */
-    double energy[3];                /* of the lower, the nominal and the upper curve [J] */
+    double stroke[CZ_MAX_CORRIDOR_POINTS]; /* [m] (n_point) */
+    double lower[CZ_MAX_CORRIDOR_POINTS], nominal[CZ_MAX_CORRIDOR_POINTS],
+        upper[CZ_MAX_CORRIDOR_POINTS]; /* [N] (n_point) */
+    double energy[3];                  /* of the lower, the nominal and the upper curve [J] */
     int n_curve;
     CzTriedCurve *curve; /* all that were tried, the nominal one first (n_curve) */
     int n_inside;        /* of these within the corridor; all of them pass */
@@ -127,8 +127,9 @@ CZ_MUST_CHECK CZ_API CzStatus cz_corridor(const char *file, const CzProblemOptio
 CZ_API void cz_corridor_free(CzCorridor *corridor);
 
 /* The law of a curve by its factors: forces [N] at strokes [m]; returns their number. */
-CZ_API int cz_corridor_law(const CzCorridor *corridor, const double factor[CZ_MOST_FACTORS],
-                           double stroke[CZ_MOST_CURVE_POINTS], double force[CZ_MOST_CURVE_POINTS]);
+CZ_API int cz_corridor_law(const CzCorridor *corridor, const double factor[CZ_MAX_FACTORS],
+                           double stroke[CZ_MAX_CORRIDOR_POINTS],
+                           double force[CZ_MAX_CORRIDOR_POINTS]);
 
 /* The first curve that fails where there is no corridor; NULL otherwise. */
 CZ_API const CzTriedCurve *cz_corridor_failure(const CzCorridor *corridor);

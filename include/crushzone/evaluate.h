@@ -58,7 +58,7 @@ typedef struct CzCheckResult {
     const char *family;        /* family of scenarios that it belongs to; NULL for none */
     const char *metric;        /* kind of metric that it judges, such as "vehicles.flange_share";
                                   NULL of a match, and where it cannot be checked */
-    char where[CZ_WHERE_ROOM]; /* place of the worst value */
+    char where[CZ_WHERE_SIZE]; /* place of the worst value */
     double when[2]; /* start and end of the time of the value [s]; NaN when that is not known, or
                        there is no value */
     double limit;   /* in `unit` */
@@ -85,7 +85,7 @@ typedef struct CzCheckResult {
 typedef struct CzMatchResult {
     const char *name;
     const char *scenario;
-    char where[CZ_WHERE_ROOM]; /* place of the metric or event, or the channel */
+    char where[CZ_WHERE_SIZE]; /* place of the metric or event, or the channel */
     const char *unit;          /* of target, value and tolerance */
     double target;             /* measured value; 0 for a time history */
     double value; /* of the run, or its root mean square difference from a time history; NaN when
@@ -104,7 +104,7 @@ typedef struct CzValueResult {
     double
         value; /* the largest, of a metric that ends in .min the smallest one, in `unit`; NaN when
                   it is not known, does not apply or is a total beyond the model's validity */
-    char where[CZ_WHERE_ROOM];
+    char where[CZ_WHERE_SIZE];
     const char *scenario; /* NULL without a value */
 } CzValueResult;
 
@@ -195,7 +195,7 @@ CZ_API void cz_evaluator_free(CzEvaluator *evaluator);
 
 /* A step of the force ladder that is out of order in a train as written. */
 typedef struct CzForceStep {
-    char where[CZ_WHERE_ROOM]; /* "A4 front" */
+    char where[CZ_WHERE_SIZE]; /* "A4 front" */
     const char *what;          /* "the tube over the shear-off" */
     double ratio;              /* of the two forces, above 1 */
 } CzForceStep;

@@ -37,14 +37,14 @@ typedef struct CzCandidateChange {
 /* An indicator of a cause at an interface or element. */
 typedef struct CzIndicator {
     CzCause cause;
-    char what[CZ_WHERE_ROOM + 96]; /* a sentence without its time */
+    char what[CZ_WHERE_SIZE + 96]; /* a sentence without its time */
     double time;                   /* [s]; NaN for one of the whole run */
 } CzIndicator;
 
 /* Most indicators of one run. */
-enum { CZ_MOST_INDICATORS = 24 };
+enum { CZ_MAX_INDICATORS = 24 };
 
-enum { CZ_MOST_CARRIERS = 8, CZ_MOST_STATES = 12, CZ_MOST_EXPLAINED = 16 };
+enum { CZ_MAX_CARRIERS = 8, CZ_MAX_STATES = 12, CZ_MAX_EXPLAINED = 16 };
 
 /* What the amounts of carriers are. */
 typedef enum CzCarried {
@@ -57,15 +57,15 @@ typedef enum CzCarried {
 
 /* A load path, or an element, with its part of the whole. */
 typedef struct CzCarrier {
-    char what[CZ_INTERFACE_ROOM + CZ_WHERE_ROOM]; /* such as "couplers of A4-B1" */
+    char what[CZ_INTERFACE_SIZE + CZ_WHERE_SIZE]; /* such as "couplers of A4-B1" */
     double amount;
     double share; /* of the sum over all carriers */
 } CzCarrier;
 
 /* State of an element at the time of a check. */
 typedef struct CzElementState {
-    char interface[CZ_INTERFACE_ROOM];
-    char element[CZ_WHERE_ROOM];
+    char interface[CZ_INTERFACE_SIZE];
+    char element[CZ_WHERE_SIZE];
     const char *state;  /* "bottomed out", "sheared off", "tube exhausted", "stroke left" or "not
                            used"; static */
     double time;        /* of the event [s]; NaN without */
@@ -74,7 +74,7 @@ typedef struct CzElementState {
 
 /* A change of one number that was run in all scenarios, and its effect. */
 typedef struct CzTriedChange {
-    char name[CZ_PATH_ROOM]; /* of the variable of the file, or the path where it is written */
+    char name[CZ_PATH_SIZE]; /* of the variable of the file, or the path where it is written */
     char unit[16];
     double value, tried;
     double change; /* relative; of a value of 0 over that of CzVaryingNumber */
@@ -82,7 +82,7 @@ typedef struct CzTriedChange {
                       -0.01 for a violated one */
     bool passes;   /* the check passes in all of them */
     int n_broken;  /* other checks that fail now and did not before */
-    char other[CZ_LABEL_ROOM], other_scenario[CZ_NAME_ROOM]; /* the other check with the smallest
+    char other[CZ_LABEL_SIZE], other_scenario[CZ_NAME_SIZE]; /* the other check with the smallest
                                                                 margin now; empty for none */
     double other_margin, other_before;                       /* its margin now and before */
 } CzTriedChange;
@@ -91,12 +91,12 @@ typedef struct CzTriedChange {
 typedef struct CzExplainedCheck {
     CzCheckResult check;
     double time[2]; /* begin and end of the deciding time [s]; NaN when unknown */
-    char interface[CZ_INTERFACE_ROOM]; /* the place, or the one behind it; empty for none */
+    char interface[CZ_INTERFACE_SIZE]; /* the place, or the one behind it; empty for none */
     CzCarried carried;
     int n_carrier;
-    CzCarrier carrier[CZ_MOST_CARRIERS]; /* the largest first */
+    CzCarrier carrier[CZ_MAX_CARRIERS]; /* the largest first */
     int n_state;
-    CzElementState state[CZ_MOST_STATES];
+    CzElementState state[CZ_MAX_STATES];
     double margin; /* of all its scenarios in the runs of the changes, without a change */
     int n_change;
     CzTriedChange *change; /* those that raise its margin: first those with which it passes and no
@@ -120,7 +120,7 @@ typedef struct CzExplanation {
     int vehicle; /* vehicle of the budget: that of the worst check, or the one behind its interface
                   */
     int n_indicator;
-    CzIndicator indicator[CZ_MOST_INDICATORS]; /* in order of time */
+    CzIndicator indicator[CZ_MAX_INDICATORS]; /* in order of time */
     int n_candidate;
     CzCandidateChange *candidate; /* those that reverse the verdict by the size of the change, then
                                      the others by the margin that they reach (n_candidate) */

@@ -74,7 +74,7 @@ typedef struct CzFitLoading {
     const double *stroke, *force; /* [m], [N] (n) */
 } CzFitLoading;
 
-enum { CZ_FIT_MOST_NOTES = 12, CZ_FIT_MOST_DOUBTS = 6 };
+enum { CZ_FIT_MAX_NOTES = 12, CZ_FIT_MAX_DOUBTS = 6 };
 
 /* The fitted law. Energies are work on the device [J]. Arrays and texts are borrowed from the fit.
  */
@@ -101,10 +101,10 @@ typedef struct CzFitSummary {
     double stretch_difference; /* largest mean difference over a tenth of the stroke [N] */
     CzFitVerdict verdict;
     int n_doubt, n_note, n_value;
-    const char *doubt[CZ_FIT_MOST_DOUBTS]; /* why it is doubtful or refused (n_doubt) */
-    const char *note[CZ_FIT_MOST_NOTES];   /* notes for the user (n_note) */
-    const CzFitValue *value;               /* of the law, in the order of the file (n_value) */
-    CzFitLoading curve, law;               /* of the curve, and of the law over the same stroke */
+    const char *doubt[CZ_FIT_MAX_DOUBTS]; /* why it is doubtful or refused (n_doubt) */
+    const char *note[CZ_FIT_MAX_NOTES];   /* notes for the user (n_note) */
+    const CzFitValue *value;              /* of the law, in the order of the file (n_value) */
+    CzFitLoading curve, law;              /* of the curve, and of the law over the same stroke */
 } CzFitSummary;
 
 /* A fitted law. Opaque, owns its memory. */

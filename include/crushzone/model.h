@@ -49,7 +49,7 @@ CZ_API CzInterfaceProperties cz_model_interface_properties(const CzModel *model,
 
 /* Time step and the bounds that it was chosen from, smallest first. */
 typedef struct CzStepBound {
-    char element[CZ_WHERE_ROOM]; /* such as "wheel-rail contact B1" */
+    char element[CZ_WHERE_SIZE]; /* such as "wheel-rail contact B1" */
     double bound;                /* largest stable step [s] */
 } CzStepBound;
 CZ_API double cz_model_time_step(const CzModel *model);

@@ -65,7 +65,7 @@ typedef struct CzJournal {
     void *keep_data;
 } CzJournal;
 
-enum { CZ_USUAL_WIDTH = 8, CZ_MOST_WIDTH = 1024 }; /* of searches */
+enum { CZ_USUAL_WIDTH = 8, CZ_MAX_WIDTH = 1024 }; /* of searches */
 
 typedef struct CzOptimiseOptions {
     const char *algorithm; /* "auto" or an NLopt name such as "LN_COBYLA"; NULL: that of the file */

@@ -159,7 +159,7 @@ typedef struct CzReport {
     const CzBenchmark *benchmark;
     const CzExplanation *explanation;
     const CzReportRun *compared;    /* (n_compared) */
-    int n_compared;                 /* at most CZ_MOST_COMPARED */
+    int n_compared;                 /* at most CZ_MAX_COMPARED */
     const CzComparison *comparison; /* of these runs; NULL: differences of inputs are not written */
     const CzFit *fit;
     const CzError *const *mistake; /* (n_mistake) */
@@ -167,7 +167,7 @@ typedef struct CzReport {
     const CzReply *reply;
 } CzReport;
 
-enum { CZ_MOST_COMPARED = 8 };
+enum { CZ_MAX_COMPARED = 8 };
 
 /* Finds the differences of the compared runs of a report: of their inputs, and of all numbers of
  * the compared scenario. Freed by the caller, before the runs. Status: CZ_STATUS_NO_MEMORY. */

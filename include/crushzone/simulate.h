@@ -40,7 +40,7 @@ CZ_API const char *cz_event_text(CzEventKind kind);
 typedef struct CzEvent {
     double time; /* [s] */
     CzEventKind what;
-    char where[CZ_WHERE_ROOM]; /* such as "coupler A4" or "A4 wheelset 2" */
+    char where[CZ_WHERE_SIZE]; /* such as "coupler A4" or "A4 wheelset 2" */
     int interface; /* interface of the event, because a vehicle has two couplers of one name; -1 for
                       an event of a vehicle */
 } CzEvent;
@@ -55,7 +55,7 @@ typedef enum CzElementKind {
 CZ_API const char *cz_element_text(CzElementKind kind);
 
 typedef struct CzElementResult {
-    char name[CZ_WHERE_ROOM]; /* "coupler A4" */
+    char name[CZ_WHERE_SIZE]; /* "coupler A4" */
     CzElementKind kind;
     int vehicle;   /* vehicle that owns it */
     double energy; /* net dissipated [J] */
@@ -81,7 +81,7 @@ typedef struct CzElementResult {
 enum { CZ_MAX_ELEMENTS = 12 };
 
 typedef struct CzInterfaceResult {
-    char name[CZ_INTERFACE_ROOM]; /* "A4-B1" */
+    char name[CZ_INTERFACE_SIZE]; /* "A4-B1" */
     double peak_force;            /* largest total longitudinal force over all steps [N] */
     double peak_time;             /* [s] */
     double peak_force_cfc180;     /* largest force through a filter CFC 180, every step counted [N];
@@ -117,7 +117,7 @@ typedef struct CzInterfaceResult {
 enum { CZ_N_FREE_FLIGHT = 10 }; /* distances for which the secondary impact is listed */
 
 typedef struct CzVehicleResult {
-    char name[CZ_NAME_ROOM];
+    char name[CZ_NAME_SIZE];
     double final_speed;               /* of the body [m/s] */
     double peak_deceleration;         /* largest |acceleration| of the body, unfiltered [m/s2] */
     double mean_deceleration_contact; /* largest mean over a window of net contact force [m/s2] */

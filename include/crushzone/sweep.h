@@ -14,16 +14,16 @@
 
 CZ_BEGIN_DECLARATIONS
 
-enum { CZ_MOST_AXES = 2, CZ_MOST_SWEPT_METRICS = 8, CZ_MOST_LISTED = 64 };
+enum { CZ_MAX_AXES = 2, CZ_MAX_SWEPT_METRICS = 8, CZ_MAX_LISTED = 64 };
 
 /* A path with its values, in the unit of the path's key: n evenly spaced ones from `from` to `to`,
  * or a list in rising order. */
 typedef struct CzSweepAxis {
-    char path[CZ_PATH_ROOM];
+    char path[CZ_PATH_SIZE];
     double from, to; /* of a list its first and last value */
     int n;           /* at least 2 */
     bool is_list;
-    double listed[CZ_MOST_LISTED]; /* of a list (n) */
+    double listed[CZ_MAX_LISTED]; /* of a list (n) */
 } CzSweepAxis;
 
 /* Reads a text such as "trains.A.speed_km_h=5:40:8" or "trains.A.speed_km_h=8,15,25", whose values
@@ -44,20 +44,20 @@ typedef enum CzSweepState {
 CZ_API const char *cz_sweep_state_text(CzSweepState state);
 
 typedef struct CzSweepPoint {
-    double value[CZ_MOST_AXES]; /* in the units of the paths */
+    double value[CZ_MAX_AXES]; /* in the units of the paths */
     CzSweepState state;
     CzVerdict verdict; /* over the checks requested; CZ_VERDICT_NOT_CHECKED unless done */
     double margin;     /* smallest margin of them; NaN when none has one, or only a yes-or-no check
                           fails */
-    char check[CZ_LABEL_ROOM]; /* the check with that margin, or the failing yes-or-no check, its
+    char check[CZ_LABEL_SIZE]; /* the check with that margin, or the failing yes-or-no check, its
                                   scenario and place; empty when none */
-    char scenario[CZ_NAME_ROOM];
-    char where[CZ_WHERE_ROOM];
+    char scenario[CZ_NAME_SIZE];
+    char where[CZ_WHERE_SIZE];
     bool beyond_validity; /* an override occurred: metrics may be of the time after it, and totals
                              are NaN */
-    double metric[CZ_MOST_SWEPT_METRICS]; /* in the metrics' units; NaN when unknown (n_metric) */
-    char metric_where[CZ_MOST_SWEPT_METRICS][CZ_PLACE_ROOM]; /* place and scenario (n_metric) */
-    char message[512];                                       /* why it is invalid or failed */
+    double metric[CZ_MAX_SWEPT_METRICS]; /* in the metrics' units; NaN when unknown (n_metric) */
+    char metric_where[CZ_MAX_SWEPT_METRICS][CZ_PLACE_SIZE]; /* place and scenario (n_metric) */
+    char message[512];                                      /* why it is invalid or failed */
 } CzSweepPoint;
 
 /* A scenario that a varied value does not reach, because the scenario sets it itself. Texts are
@@ -69,7 +69,7 @@ typedef struct CzUnreached {
                        does not run the train */
 } CzUnreached;
 
-enum { CZ_MOST_SWEPT_CURVES = 12 };
+enum { CZ_MAX_SWEPT_CURVES = 12 };
 
 /* Histories of a point in the scenario of the curves, in the units of the channels. Missing ones
  * are NULL, such as those of a run that failed. */
@@ -85,13 +85,13 @@ typedef struct CzSweepCurve {
 /* Open result, owns its memory. */
 typedef struct CzSweep {
     int n_axis;
-    CzSweepAxis axis[CZ_MOST_AXES];
+    CzSweepAxis axis[CZ_MAX_AXES];
     int n_metric;
-    char metric[CZ_MOST_SWEPT_METRICS][96];
-    const char *metric_unit[CZ_MOST_SWEPT_METRICS]; /* static */
-    const char *metric_doc[CZ_MOST_SWEPT_METRICS];  /* what it is; static */
-    int n_point;                                    /* product of the axes' lengths */
-    CzSweepPoint *point;                            /* the last axis changes fastest (n_point) */
+    char metric[CZ_MAX_SWEPT_METRICS][96];
+    const char *metric_unit[CZ_MAX_SWEPT_METRICS]; /* static */
+    const char *metric_doc[CZ_MAX_SWEPT_METRICS];  /* what it is; static */
+    int n_point;                                   /* product of the axes' lengths */
+    CzSweepPoint *point;                           /* the last axis changes fastest (n_point) */
     int shard, n_shard; /* this one, from 1, and their number: 1 and 1 without shards */
     int begin, end;     /* its points, from 0, the last one excluded */
     int worst; /* a point whose run failed, else one that fails, else the one with the smallest
@@ -100,10 +100,10 @@ typedef struct CzSweep {
     int n_unreached;
     CzUnreached *unreached; /* axis by axis, scenarios in the order of the file (n_unreached) */
     int n_curve;            /* 0 when none were asked for, and of a shard or an interrupted sweep */
-    CzSweepCurve *curve;    /* of all completed points, or of CZ_MOST_SWEPT_CURVES of them at equal
+    CzSweepCurve *curve;    /* of all completed points, or of CZ_MAX_SWEPT_CURVES of them at equal
                                distances, with both ends (n_curve) */
     char
-        curve_scenario[CZ_NAME_ROOM]; /* the one that was asked for, else that of the worst check */
+        curve_scenario[CZ_NAME_SIZE]; /* the one that was asked for, else that of the worst check */
     CzProblem *problem;               /* as written, for titles and warnings */
     double wall_s;
 } CzSweep;

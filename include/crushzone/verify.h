@@ -38,8 +38,8 @@ CZ_API CzVerifyOptions cz_verify_options_default(void);
  * largest closure, dissipated energy). Texts are borrowed from the evaluator. */
 typedef struct CzVerifiedValue {
     const char *name;
-    char scenario[CZ_NAME_ROOM]; /* empty for the objective and for the design itself */
-    char where[CZ_WHERE_ROOM];   /* of the production run; empty when it has no place */
+    char scenario[CZ_NAME_SIZE]; /* empty for the objective and for the design itself */
+    char where[CZ_WHERE_SIZE];   /* of the production run; empty when it has no place */
     const char *unit;
     double production;    /* value of the production run, or of that up to where it settled */
     bool beyond_validity; /* the production run's value may be of the time after an override */

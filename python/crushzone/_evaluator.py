@@ -17,7 +17,7 @@ from ._errors import CrushzoneError, InputError, Mistake, error_of
 from ._program import Value, plain
 from ._results import Table
 
-_MOST_AT_ONCE = 1024  # designs in one line
+_MAX_AT_ONCE = 1024  # designs in one line
 _PATIENCE_S = 5.0  # for the end of a process
 
 
@@ -282,9 +282,9 @@ class Evaluator:
         error in one of them is raised for all.
         """
         evaluations: list[Evaluation] = []
-        for first in range(0, len(designs), _MOST_AT_ONCE):
+        for first in range(0, len(designs), _MAX_AT_ONCE):
             requests = []
-            for design in designs[first : first + _MOST_AT_ONCE]:
+            for design in designs[first : first + _MAX_AT_ONCE]:
                 given = (design, None) if by_path else (None, design)
                 request = self._request(given[0], given[1], scenarios, want)  # type: ignore[arg-type]
                 requests.append({**request, "id": next(self._ids)})

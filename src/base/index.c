@@ -4,7 +4,7 @@
 #include <stdint.h>
 #include <string.h>
 
-enum { FEWEST_SLOTS = 16 };
+enum { MIN_SLOTS = 16 };
 
 typedef struct CzIndexSlot {
     const char *text; /* NULL: empty */
@@ -39,7 +39,7 @@ int cz_index_find(const CzIndex *index, const char *text, size_t n) {
 
 static bool grow(CzIndex *index) {
     const CzIndex old = *index;
-    const int n_slot = old.n_slot > 0 ? 2 * old.n_slot : FEWEST_SLOTS;
+    const int n_slot = old.n_slot > 0 ? 2 * old.n_slot : MIN_SLOTS;
     CzIndexSlot *slot = cz_arena_allocate(old.arena, (size_t)n_slot, sizeof *slot);
     if (slot == NULL)
         return false;

@@ -1,11 +1,11 @@
 /* Aberth's method. */
 #include "base/roots.h"
 
-enum { MOST_SWEEPS = 200 };
+enum { MAX_SWEEPS = 200 };
 #define LAST_MOVE 1e-15 /* of a root's size: largest move of the last sweep */
 
 void cz_find_roots(CzLogarithmicSlope *slope, const void *polynomial, int n, CzComplex *root) {
-    for (int sweep = 0; sweep < MOST_SWEEPS; sweep++) {
+    for (int sweep = 0; sweep < MAX_SWEEPS; sweep++) {
         double move = 0.0;
         for (int i = 0; i < n; i++) {
             CzComplex pull = slope(polynomial, root[i]);

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-enum { MOST_SWEEPS = 30 };
+enum { MAX_SWEEPS = 30 };
 
 #define NEGLIGIBLE                                                                                 \
     1e-18 /* of two diagonal elements: a rotation would not change them by a smaller element */
@@ -48,7 +48,7 @@ void cz_symmetric_diagonalise(int n, double *a, double *vectors) {
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
             vectors[i * n + j] = i == j;
-    for (int i = 0; i < MOST_SWEEPS && sweep(n, a, vectors) > 0; i++)
+    for (int i = 0; i < MAX_SWEEPS && sweep(n, a, vectors) > 0; i++)
         ;
 }
 

@@ -91,11 +91,11 @@ static bool is_combining(unsigned code) {
 }
 
 bool cz_text_fault(const char *text, size_t n_byte, bool is_file, size_t *at,
-                   char what[CZ_FAULT_ROOM]) {
+                   char what[CZ_FAULT_SIZE]) {
     for (*at = 0; *at < n_byte;) {
         const size_t n = cz_text_character(text + *at, n_byte - *at);
         if (n == 0) {
-            snprintf(what, CZ_FAULT_ROOM, "byte 0x%02x, which is not valid UTF-8",
+            snprintf(what, CZ_FAULT_SIZE, "byte 0x%02x, which is not valid UTF-8",
                      (unsigned)(unsigned char)text[*at]);
             return true;
         }
@@ -105,7 +105,7 @@ bool cz_text_fault(const char *text, size_t n_byte, bool is_file, size_t *at,
         if (word == NULL && !is_file && *at == 0 && is_combining(code))
             word = "the combining mark without its letter";
         if (word != NULL) {
-            snprintf(what, CZ_FAULT_ROOM, "%s U+%04X", word, code);
+            snprintf(what, CZ_FAULT_SIZE, "%s U+%04X", word, code);
             return true;
         }
         *at += n;
@@ -113,36 +113,36 @@ bool cz_text_fault(const char *text, size_t n_byte, bool is_file, size_t *at,
     return false;
 }
 
-bool cz_name_fault(const char *name, const char *further, char what[CZ_FAULT_ROOM]) {
+bool cz_name_fault(const char *name, const char *further, char what[CZ_FAULT_SIZE]) {
     static const char allowed[] =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+";
     const size_t n_byte = strlen(name);
     size_t at;
-    char word[CZ_FAULT_ROOM - 8];
-    if (n_byte > CZ_MOST_NAME) {
-        snprintf(what, CZ_FAULT_ROOM, "is longer than %d bytes; a letter beyond ASCII has 2 to 4",
-                 (int)CZ_MOST_NAME);
+    char word[CZ_FAULT_SIZE - 8];
+    if (n_byte > CZ_MAX_NAME) {
+        snprintf(what, CZ_FAULT_SIZE, "is longer than %d bytes; a letter beyond ASCII has 2 to 4",
+                 (int)CZ_MAX_NAME);
         return true;
     }
     if (cz_text_fault(name, n_byte, false, &at, what)) {
         memcpy(word, what, sizeof word - 1);
         word[sizeof word - 1] = '\0';
-        snprintf(what, CZ_FAULT_ROOM, "holds %s", word);
+        snprintf(what, CZ_FAULT_SIZE, "holds %s", word);
         return true;
     }
     for (at = 0; at < n_byte; at += cz_text_character(name + at, n_byte - at)) {
         const unsigned code = code_of(name + at, cz_text_character(name + at, n_byte - at));
         const char *kind = find((int)(sizeof no_letter / sizeof *no_letter), no_letter, code);
         if (is_combining(code))
-            snprintf(what, CZ_FAULT_ROOM,
+            snprintf(what, CZ_FAULT_SIZE,
                      "contains %s U+%04X: write the letter with its mark as one character", kind,
                      code);
         else if (code < 0x80 && strchr(allowed, (int)code) == NULL &&
                  strchr(further, (int)code) == NULL)
-            snprintf(what, CZ_FAULT_ROOM, "contains '%c'; a name has letters, digits and _-+%s",
+            snprintf(what, CZ_FAULT_SIZE, "contains '%c'; a name has letters, digits and _-+%s",
                      (int)code, further);
         else if (kind != NULL)
-            snprintf(what, CZ_FAULT_ROOM,
+            snprintf(what, CZ_FAULT_SIZE,
                      "contains %s U+%04X; a name has letters, digits and _-+%s", kind, code,
                      further);
         else

@@ -6,7 +6,7 @@
  * U+200D) and variation selectors are allowed, because some scripts need them. It does not begin
  * with a combining mark.
  *
- * A name is a text of at most CZ_MOST_NAME bytes that also is in paths, columns, files and folders:
+ * A name is a text of at most CZ_MAX_NAME bytes that also is in paths, columns, files and folders:
  * letters, digits and - _ +. Letters beyond ASCII are allowed, composed ones as one character, so
  * that names that look equal are equal.
  */
@@ -19,17 +19,17 @@
 /* Bytes of the UTF-8 character at the start of n bytes; 0 when there is none. */
 size_t cz_text_character(const char *text, size_t n_byte);
 
-enum { CZ_FAULT_ROOM = 96 };
+enum { CZ_FAULT_SIZE = 96 };
 
 /* Finds the first forbidden character in a text of n bytes: true, with its place in bytes and its
  * description, such as "the control character U+001B". With `is_file` the ends of lines and tabs
  * are allowed. */
 bool cz_text_fault(const char *text, size_t n_byte, bool is_file, size_t *at,
-                   char what[CZ_FAULT_ROOM]);
+                   char what[CZ_FAULT_SIZE]);
 
 /* The same for a name: the end of a sentence that begins with the name, such as "contains '/'".
  * `further` are ASCII characters that are allowed too. */
-bool cz_name_fault(const char *name, const char *further, char what[CZ_FAULT_ROOM]);
+bool cz_name_fault(const char *name, const char *further, char what[CZ_FAULT_SIZE]);
 
 /* Whether a text is one of n. */
 bool cz_text_is_among(const char *text, int n, const char *const *list);

@@ -240,7 +240,7 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
     CZ_TRY(read_whole(arguments, CZ_OPTION_JOBS, 1, 1024, &n_job, error));
     CZ_TRY(
         read_whole(arguments, CZ_OPTION_EVALUATIONS, 1, 100000000, &arguments->evaluations, error));
-    CZ_TRY(read_whole(arguments, CZ_OPTION_WIDTH, CZ_USUAL_WIDTH, CZ_MOST_WIDTH, &arguments->width,
+    CZ_TRY(read_whole(arguments, CZ_OPTION_WIDTH, CZ_USUAL_WIDTH, CZ_MAX_WIDTH, &arguments->width,
                       error));
     CZ_TRY(read_time(arguments, CZ_OPTION_MAX_TIME, &arguments->max_time, error));
     CZ_TRY(read_whole(arguments, CZ_OPTION_ROUNDS, 1, 10000, &arguments->rounds, error));
@@ -282,7 +282,7 @@ static CzStatus read_values(CzArguments *arguments, CzError *error) {
 /* Names of files and folders are texts like any other (base/text.h): other bytes cannot be reported
  * in a message, a log or a document. */
 static CzStatus check_file_name(const char *name, CzError *error) {
-    char what[CZ_FAULT_ROOM];
+    char what[CZ_FAULT_SIZE];
     size_t at;
     if (name == NULL || !cz_text_fault(name, strlen(name), false, &at, what))
         return CZ_OK;
@@ -320,7 +320,7 @@ static CzStatus check_operands(const CzArguments *arguments, CzError *error) {
             return cz_fail(error, CZ_STATUS_INPUT, "'--set %.100s' is not of the form PATH=VALUE",
                            arguments->set[i]);
     const bool lacks_vary = arguments->command == CZ_COMMAND_SWEEP && arguments->n_vary < 1;
-    if (lacks_vary || arguments->n_vary > CZ_MOST_AXES)
+    if (lacks_vary || arguments->n_vary > CZ_MAX_AXES)
         return cz_fail(error, CZ_STATUS_INPUT,
                        "'crushzone %s' needs --vary PATH=A:B:N once or twice", info->name);
     if (arguments->text[CZ_OPTION_SHARD] != NULL && arguments->text[CZ_OPTION_OUTPUT] == NULL)

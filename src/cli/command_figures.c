@@ -152,7 +152,7 @@ static int plot_points(CzSession *session, void *data) {
 }
 
 static int plot_varied(const CzArguments *arguments) {
-    CzSweepAxis axis[CZ_MOST_AXES];
+    CzSweepAxis axis[CZ_MAX_AXES];
     CzError error = {0};
     const int code = refuse_with_vary(arguments);
     if (code != 0)
@@ -179,7 +179,7 @@ int cz_command_plot(const CzArguments *arguments) {
 /* ---- compare ---- */
 
 static int compare(const CzArguments *arguments, const CzResult *result) {
-    CzReportRun run[CZ_MOST_COMPARED];
+    CzReportRun run[CZ_MAX_COMPARED];
     CzReport report = {
         .kind = CZ_REPORT_COMPARISON, .compared = run, .n_compared = arguments->n_operand};
     CzComparison *comparison = NULL;

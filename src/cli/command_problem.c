@@ -16,7 +16,7 @@ typedef struct Printed {
 } Printed;
 
 static bool was_printed(Printed *printed, const char *name) {
-    char line[CZ_INTERFACE_ROOM + 2];
+    char line[CZ_INTERFACE_SIZE + 2];
     snprintf(line, sizeof line, "\n%s\n", name);
     if (strstr(printed->names, line) != NULL)
         return true;
@@ -87,9 +87,9 @@ static int check_search(const CzSession *session) {
 
 /* Devices that yield before those in front of them. */
 static void print_force_order(const CzSession *session) {
-    enum { MOST = 20 };
-    CzForceStep step[MOST];
-    const int n = cz_evaluator_force_order(session->evaluator, MOST, step);
+    enum { MAX_FORCE_STEPS = 20 };
+    CzForceStep step[MAX_FORCE_STEPS];
+    const int n = cz_evaluator_force_order(session->evaluator, MAX_FORCE_STEPS, step);
     for (int i = 0; i < n; i++)
         cz_print_note(
             session->arguments,

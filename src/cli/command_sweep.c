@@ -9,7 +9,7 @@
 #include <stdio.h>
 
 /* Reads the axes of `--vary`; returns the exit code. */
-static int read_axes(const CzArguments *arguments, CzSweepAxis axis[CZ_MOST_AXES]) {
+static int read_axes(const CzArguments *arguments, CzSweepAxis axis[CZ_MAX_AXES]) {
     CzError error = {0};
     for (int k = 0; k < arguments->n_vary; k++)
         if (cz_sweep_axis_parse(arguments->vary[k], &axis[k], &error) != CZ_OK)
@@ -67,7 +67,7 @@ static const char *const usual_metrics[] = {"elements.stroke_used", "interfaces.
 
 /* A sweep of the command line. */
 typedef struct Asked {
-    CzSweepAxis axis[CZ_MOST_AXES];
+    CzSweepAxis axis[CZ_MAX_AXES];
     CzShards *shards; /* NULL when no point is known */
 } Asked;
 

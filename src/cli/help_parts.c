@@ -12,28 +12,28 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_CATALOGUES = 64, NUMBER_ROOM = 24 };
+enum { MAX_CATALOGUES = 64, NUMBER_SIZE = 24 };
 
 /* A number in a column; blank for none. */
-static const char *number(char text[NUMBER_ROOM], double value) {
+static const char *number(char text[NUMBER_SIZE], double value) {
     text[0] = '\0';
     if (isfinite(value))
-        snprintf(text, NUMBER_ROOM, value < 100 ? "%.3g" : "%.0f", value);
+        snprintf(text, NUMBER_SIZE, value < 100 ? "%.3g" : "%.0f", value);
     return text;
 }
 
 /* One force, or the smallest and the largest [kN]. */
-static const char *forces(char text[2 * NUMBER_ROOM], double from, double to) {
+static const char *forces(char text[2 * NUMBER_SIZE], double from, double to) {
     text[0] = '\0';
     if (isfinite(to) && from < to)
-        snprintf(text, 2 * NUMBER_ROOM, "%.5g-%.5g", from, to);
+        snprintf(text, 2 * NUMBER_SIZE, "%.5g-%.5g", from, to);
     else if (isfinite(to))
-        snprintf(text, 2 * NUMBER_ROOM, "%.5g", to);
+        snprintf(text, 2 * NUMBER_SIZE, "%.5g", to);
     return text;
 }
 
 static void write_part(const CzPartInfo *part, int width) {
-    char line[256], force[2 * NUMBER_ROOM], text[4][NUMBER_ROOM];
+    char line[256], force[2 * NUMBER_SIZE], text[4][NUMBER_SIZE];
     int n = snprintf(line, sizeof line, "  %-*s  %-14s  %13s  %5s  %6s  %6s  %5s", width,
                      part->name, part->kind != NULL ? part->kind : "?",
                      forces(force, 1e-3 * part->force_from, 1e-3 * part->force_to),
@@ -83,7 +83,7 @@ static int compare_names(const void *a, const void *b) {
 
 /* All catalogues of the folder of shipped data, by name. */
 static int write_catalogues(const CzArguments *arguments) {
-    char path[4096], name[MOST_CATALOGUES][256];
+    char path[4096], name[MAX_CATALOGUES][256];
     int n = 0, code = 0;
     snprintf(path, sizeof path, "%s/catalogue", cz_share_folder);
     DIR *folder = opendir(path);
@@ -92,7 +92,7 @@ static int write_catalogues(const CzArguments *arguments) {
         cz_fail(&error, CZ_STATUS_INPUT, "there is no folder %.300s", path);
         return cz_print_error(arguments, &error);
     }
-    for (const struct dirent *file = readdir(folder); file != NULL && n < MOST_CATALOGUES;
+    for (const struct dirent *file = readdir(folder); file != NULL && n < MAX_CATALOGUES;
          file = readdir(folder)) {
         const char *end = strrchr(file->d_name, '.');
         if (end != NULL && strcmp(end, ".yaml") == 0)

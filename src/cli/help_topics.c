@@ -247,7 +247,7 @@ static void write_profiles(void) {
 }
 
 /* Example of a channel's name: A1 represents any vehicle, A4-B1 for any interface. */
-static const char *channel_example(const CzChannelInfo *info, char text[CZ_CHANNEL_ROOM]) {
+static const char *channel_example(const CzChannelInfo *info, char text[CZ_CHANNEL_SIZE]) {
     const bool of_end = info->at == CZ_AT_END;
     return cz_channel_name(info, of_end ? cz_end_place(0, 1) : 0,
                            info->at == CZ_AT_INTERFACE ? "A4-B1" : "A1", text);
@@ -264,7 +264,7 @@ static void write_channels(void) {
     cz_help_write_wrapped(channels_remark, 0);
     putchar('\n');
     for (CzChannel channel = 0; channel < CZ_N_CHANNEL; channel++) {
-        char name[CZ_CHANNEL_ROOM];
+        char name[CZ_CHANNEL_SIZE];
         const CzChannelInfo *info = cz_channel_info(channel);
         const CzHelpEntry entry = {channel_example(info, name), info->doc};
         write_entries(1, &entry, 30);
@@ -284,7 +284,7 @@ void cz_help_write_channels_markdown(void) {
                                          [CZ_AT_END] = "an end of a vehicle",
                                          [CZ_AT_INTERFACE] = "an interface"};
     for (CzChannel channel = 0; channel < CZ_N_CHANNEL; channel++) {
-        char name[CZ_CHANNEL_ROOM], unit[16];
+        char name[CZ_CHANNEL_SIZE], unit[16];
         const CzChannelInfo *info = cz_channel_info(channel);
         snprintf(unit, sizeof unit, "%s", info->unit);
         unit[strcspn(unit, "_")] = strchr(unit, '_') != NULL ? '/' : '\0';

@@ -21,7 +21,7 @@
 
 enum { TAG_MESSAGE, TAG_REQUEST, TAG_ANSWER };
 
-enum { MOST_OPEN = 2 }; /* requests of a rank without an answer: one runs, the next one waits */
+enum { MAX_OPEN = 2 }; /* requests of a rank without an answer: one runs, the next one waits */
 
 /* Head of requests and answers. */
 typedef struct Head {
@@ -146,9 +146,9 @@ typedef struct Sent {
 typedef struct Ranks {
     int n; /* ranks, this one among them */
     int64_t n_message;
-    Sent (*sent)[MOST_OPEN]; /* (n) */
-    int n_left;              /* tasks of the batch that nobody has yet */
-    int n_open;              /* tasks that other ranks have */
+    Sent (*sent)[MAX_OPEN]; /* (n) */
+    int n_left;             /* tasks of the batch that nobody has yet */
+    int n_open;             /* tasks that other ranks have */
     Batches batches;
 } Ranks;
 
@@ -190,7 +190,7 @@ static void hand_out(Ranks *ranks, CzTasks *tasks, int rank, Sent *sent) {
 
 /* Gives every rank a task, and a second one while many are left. */
 static void hand_out_all(Ranks *ranks, CzTasks *tasks) {
-    for (int k = 0; k < MOST_OPEN; k++)
+    for (int k = 0; k < MAX_OPEN; k++)
         for (int rank = 1; rank < ranks->n && ranks->n_left > k * 2 * ranks->n; rank++)
             if (ranks->sent[rank][k].packet.byte == NULL)
                 hand_out(ranks, tasks, rank, &ranks->sent[rank][k]);
@@ -202,7 +202,7 @@ static void take(Ranks *ranks, CzTasks *tasks, const MPI_Status *arrived) {
     const CzBytes answer = bytes_of(&packet);
     Head head;
     memcpy(&head, packet.byte, sizeof head);
-    for (int k = 0; k < MOST_OPEN; k++) {
+    for (int k = 0; k < MAX_OPEN; k++) {
         Sent *sent = &ranks->sent[arrived->MPI_SOURCE][k];
         if (sent->packet.byte == NULL || sent->task != head.task)
             continue;

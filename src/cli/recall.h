@@ -7,7 +7,7 @@
 /* Contents of run.log. */
 typedef struct CzRunLog {
     bool is_ours;                /* written by this version */
-    char scenario[CZ_NAME_ROOM]; /* the last one */
+    char scenario[CZ_NAME_SIZE]; /* the last one */
     bool is_of_search;
     CzOutcomeStatus status; /* of the search */
     char why_stopped[160];

@@ -17,15 +17,15 @@ enum { N_SINGLE = sizeof single / sizeof *single };
 typedef struct Words {
     const char **word;
     int n;
-    char *name; /* next of the names of options, which have room for ROOM each */
+    char *name; /* next of the names of options, which have room for OPTION_SIZE each */
 } Words;
 
-enum { ROOM = 32 };
+enum { OPTION_SIZE = 32 };
 
 static void add(Words *words, CzOption option, const char *value) {
-    snprintf(words->name, ROOM, "--%s", cz_options[option].name);
+    snprintf(words->name, OPTION_SIZE, "--%s", cz_options[option].name);
     words->word[words->n++] = words->name;
-    words->name += ROOM;
+    words->name += OPTION_SIZE;
     if (cz_options[option].value != NULL)
         words->word[words->n++] = value;
 }
@@ -40,7 +40,7 @@ static CzStatus add_words(const CzArguments *arguments, CzReportOptions *options
     const int n_several =
         arguments->n_set + arguments->n_vary + arguments->n_metric + arguments->n_check;
     const size_t most = (size_t)n_several + N_SINGLE;
-    char *memory = malloc(most * (2 * sizeof(char *) + ROOM));
+    char *memory = malloc(most * (2 * sizeof(char *) + OPTION_SIZE));
     if (memory == NULL)
         return cz_no_memory(error, "the options of a shard");
     Words words = {.word = (const char **)memory, .name = memory + most * 2 * sizeof(char *)};

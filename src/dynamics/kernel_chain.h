@@ -17,7 +17,7 @@
 #include "dynamics/kernel_lanes.h"
 #include "laws/plastic_member.h"
 
-enum { CHAIN_ITERATIONS = 60, MOST_PLASTIC = 6 };
+enum { CHAIN_ITERATIONS = 60, MAX_PLASTIC = 6 };
 #define CHAIN_TOLERANCE 1e-13 /* closure left unbalanced [m] */
 #define REACH_MARGIN 1e-6     /* far more than the rounding of a chain's sum [m] (ours) */
 #define LAW_TOLERANCE 1.0     /* largest deviation of a member from its law [N] (ours) */
@@ -82,7 +82,7 @@ typedef struct {
                     drops far */
     CzRow top;   /* largest strength at which a member began to yield in this step */
     SpringState spring[2];
-    PlasticState plastic[MOST_PLASTIC];
+    PlasticState plastic[MAX_PLASTIC];
 } ChainState;
 
 /* A chain of a block in one step. Members of side B follow those of side A; data of one type of
@@ -97,7 +97,7 @@ struct Chain {
     double *next;
     const SpringLaw *law;
     Spring spring[2];
-    Plastic plastic[MOST_PLASTIC];
+    Plastic plastic[MAX_PLASTIC];
     ChainState now;
 };
 
@@ -179,7 +179,7 @@ typedef struct {
 static inline int improve(const ChainState *now, const CurveAt *restrict sum,
                           Sought *restrict sought) {
     double some_move = 0.0;
-    CZ_LANES_MOST(i, some_move) {
+    CZ_LANES_MAX(i, some_move) {
         const double f = sought->force[i], low = sought->low[i], high = sought->high[i];
         const double lowest = now->lowest[i], active = now->active[i];
         const double off = fabs(sum->value[i]) > CHAIN_TOLERANCE ? active : 0.0;
@@ -244,7 +244,7 @@ static inline void choose_stroke(const Chain *chain, int side, int again, double
 static inline int some_deviate(ChainState *now, const double *restrict force) {
     double *restrict distance = now->distance;
     double deviates = 0.0;
-    CZ_LANES_MOST(i, deviates) {
+    CZ_LANES_MAX(i, deviates) {
         const double off = now->active[i] * fabs(force[i] - now->force[i]);
         distance[i] = cz_larger(distance[i], off);
         deviates = cz_larger(deviates, off > LAW_TOLERANCE ? 1.0 : 0.0);
@@ -301,7 +301,7 @@ static int trial_of_plastic(const Chain *chain, int number, double *restrict str
     const double *restrict force = chain->now.force;
     const PlasticState *plastic = &chain->now.plastic[number];
     double some_crush = 0.0;
-    CZ_LANES_MOST(i, some_crush) {
+    CZ_LANES_MAX(i, some_crush) {
         stroke[i] =
             committed[i] + cz_plastic_crush(force[i], plastic->strength[i], plastic->compliance[i]);
         some_crush = cz_larger(some_crush, stroke[i] > committed[i] ? 1.0 : 0.0);
@@ -320,7 +320,7 @@ static int accept_plastic(Chain *chain, int number, const double *restrict strok
     const double *restrict rate = chain->plastic[number].rate;
     const double step = chain->step;
     double some_change = 0.0;
-    CZ_LANES_MOST(i, some_change) {
+    CZ_LANES_MAX(i, some_change) {
         const double moved = stroke[i] - committed[i];
         const double tangent = cz_positive_part(curve->slope[i]);
         const double compliance = cz_plastic_compliance(curve->value[i], tangent, rate[i], step);

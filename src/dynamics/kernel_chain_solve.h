@@ -44,7 +44,7 @@ static void search_lanes(Chain *chain, CzPublished *published, int holds) {
 
 static int some_lane_falls(const ChainState *now) {
     double falls = 0.0;
-    CZ_LANES_MOST(i, falls) {
+    CZ_LANES_MAX(i, falls) {
         falls = cz_larger(falls, now->falls[i]);
     }
     return falls > 0.0;
@@ -166,7 +166,7 @@ static void chain_top(Chain *chain) {
 /* Whether no chain pushes, and no chain exists that can pull. */
 static int is_slack(const ChainState *now) {
     double busy = 0.0;
-    CZ_LANES_MOST(i, busy) {
+    CZ_LANES_MAX(i, busy) {
         const double pulls = now->lowest[i] < 0.0 ? now->active[i] : 0.0;
         const double idle = fabs(now->force[i]) + pulls;
         busy = cz_larger(busy, idle == 0.0 ? 0.0 : 1.0); /* a NaN is busy */
@@ -177,7 +177,7 @@ static int is_slack(const ChainState *now) {
 /* Whether some lane is within reach; so is a closure that is not a number. */
 static int is_within(const double *restrict closure, const double *restrict reach) {
     double near = 0.0;
-    CZ_LANES_MOST(i, near) {
+    CZ_LANES_MAX(i, near) {
         near = cz_larger(near, closure[i] <= reach[i] ? 0.0 : 1.0);
     }
     return near > 0.0;

@@ -16,7 +16,7 @@
 
 static int some_are_released(const CzCouplerMemory *restrict memory) {
     double released = 0.0;
-    CZ_LANES_MOST(i, released) {
+    CZ_LANES_MAX(i, released) {
         const double travel = memory->side[0].shear[i] + memory->side[1].shear[i];
         released = cz_larger(released, travel > 0.0 ? 1.0 : 0.0);
     }

@@ -139,7 +139,7 @@ static int pivots_are_near(const CzBlock *d) {
     const CzCarrier eb = end_at(d, 1), bb = body_at(d, 1);
     const double *restrict reach = d->coupler_reach;
     double near = 0.0;
-    CZ_LANES_MOST(i, near) {
+    CZ_LANES_MAX(i, near) {
         const double on_a = rows->side[0].on_end[i], on_b = rows->side[1].on_end[i];
         const double x_a = rows->pivot.x[0][i], x_b = rows->pivot.x[1][i];
         const double z_a = rows->pivot.z[0][i], z_b = rows->pivot.z[1][i];

@@ -13,7 +13,7 @@
 /* The same, with the largest value of all lanes in `most`: 1 where one lane has a property and the
  * others 0. */
 #define CZ_PRAGMA(text) _Pragma(#text)
-#define CZ_LANES_MOST(i, most)                                                                     \
+#define CZ_LANES_MAX(i, most)                                                                      \
     CZ_PRAGMA(omp simd reduction(max : most))                                                      \
     for (size_t i = 0; i < CZ_LANE_BLOCK; ++i)
 

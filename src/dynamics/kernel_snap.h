@@ -61,7 +61,7 @@ static int some_snap(const FaceChain *of) {
     const double *restrict falls = of->chain.now.falls, *restrict next = of->chain.next,
                            *restrict last = of->chain.last;
     double snapped = 0.0;
-    CZ_LANES_MOST(i, snapped) {
+    CZ_LANES_MAX(i, snapped) {
         const double drops = next[i] < (1.0 - LARGE_DROP) * last[i] ? 1.0 : 0.0;
         snapped = cz_larger(snapped, falls[i] > 0.0 ? 1.0 : drops);
     }

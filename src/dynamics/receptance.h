@@ -22,7 +22,7 @@ typedef struct CzReceptanceSteps {
     const CzTrackModes *modes;      /* borrowed, as is the next */
     const CzReceptance *receptance; /* fitted to the modes */
     int n[CZ_N_PAIR_MOTION];
-    CzPairStep mode[CZ_N_PAIR_MOTION][CZ_MOST_PAIR_MODES];
+    CzPairStep mode[CZ_N_PAIR_MOTION][CZ_MAX_PAIR_MODES];
     CzTrackFlexibility flexibility; /* under a wheel, in addition to the modes */
 } CzReceptanceSteps;
 

@@ -12,7 +12,7 @@ static inline void cz_receptance_add_stored(const CzReceptanceBlock *block,
     const CzRow *state = block->state[bogie][motion];
     const double *storage = steps->receptance->motion[motion].storage;
     const int n = steps->n[motion];
-    CzRow is_under, x[2 * CZ_MOST_PAIR_MODES];
+    CzRow is_under, x[2 * CZ_MAX_PAIR_MODES];
     for (int i = 0; i < CZ_LANE_BLOCK; i++)
         is_under[i] = block->under[i] == steps ? 1.0 : 0.0;
     for (int k = 0; k < n; k++) {

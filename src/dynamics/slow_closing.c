@@ -8,7 +8,7 @@
 
 #include "laws/shear_off.h"
 
-enum { MOST_MEMBERS = 8 };
+enum { MAX_MEMBERS = 8 };
 
 typedef struct Member {
     CzCurveId curve;
@@ -19,7 +19,7 @@ typedef struct Member {
 typedef struct Path {
     const CzLanes *lanes;
     int n_member;
-    Member member[MOST_MEMBERS];
+    Member member[MAX_MEMBERS];
     double starts_at; /* closure at which it touches [m] */
     CzShearOffLaw shear_off;
     double released_at; /* closure at which it began to shear; NaN before [m] */

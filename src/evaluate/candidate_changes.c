@@ -35,12 +35,12 @@ static const CandidateKind kinds[] = {
 };
 #undef CZ_CANDIDATE
 
-enum { MOST_RECORDS = 4 * CZ_MAX_STAGES }; /* of one kind in a vehicle */
+enum { MAX_RECORDS = 4 * CZ_MAX_STAGES }; /* of one kind in a vehicle */
 
 /* Records of one kind in a vehicle. */
 typedef struct Records {
     int n;
-    void *record[MOST_RECORDS];
+    void *record[MAX_RECORDS];
 } Records;
 
 static void add(Records *records, void *record, bool given) {

@@ -11,7 +11,7 @@
 #include "evaluate/tasks.h"
 #include "simulate/batch.h"
 
-enum { MOST_WIDTH = 64 /* designs of a batch */ };
+enum { MAX_WIDTH = 64 /* designs of a batch */ };
 
 typedef struct Round {
     const CzEvaluator *evaluator;
@@ -36,9 +36,9 @@ static CzStatus run_batch(const Round *round, CzCandidate *candidate, int n, CzV
     const int scenario = round->climbing->scenario;
     const size_t n_vehicle = (size_t)evaluator->n_vehicle;
     const CzModel *model = evaluator->model[scenario];
-    CzPlannedRun design[MOST_WIDTH];
-    CzRun *run[MOST_WIDTH] = {NULL};
-    CzCandidate *of_design[MOST_WIDTH];
+    CzPlannedRun design[MAX_WIDTH];
+    CzRun *run[MAX_WIDTH] = {NULL};
+    CzCandidate *of_design[MAX_WIDTH];
     int n_design = 0;
     for (int i = 0; i < n; i++) {
         CzVehicle *own = vehicles + (size_t)n_design * n_vehicle;
@@ -140,9 +140,9 @@ static CzStatus answer_task(void *study, CzReading *request, CzMemoryText *answe
     const Opened *opened = study;
     const Round round = {.evaluator = cz_evaluator_opened(opened->evaluator),
                          .climbing = &opened->climbing};
-    CzCandidate candidate[MOST_WIDTH];
+    CzCandidate candidate[MAX_WIDTH];
     const int n = cz_get_int(request);
-    if (n < 1 || n > MOST_WIDTH)
+    if (n < 1 || n > MAX_WIDTH)
         return cz_no_memory(error, "a task");
     cz_get(request, candidate, (size_t)n, sizeof *candidate);
     CZ_TRY(run_candidates(&round, n, candidate, error));
@@ -170,7 +170,7 @@ CzStatus cz_candidates_run(const CzEvaluator *evaluator, const CzClimbing *climb
                    .stop = stop,
                    .n = n,
                    .candidate = candidate,
-                   .width = width < MOST_WIDTH ? width : MOST_WIDTH};
+                   .width = width < MAX_WIDTH ? width : MAX_WIDTH};
     round.study = (CzStudy){.executor = evaluator->executor,
                             .kind = CZ_STUDY_OF_CANDIDATES,
                             .describe = describe,

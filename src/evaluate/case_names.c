@@ -19,14 +19,14 @@ int cz_cases_n_earlier(const CzProblem *problem, const char *word) {
     return most;
 }
 
-void cz_case_name(const CzCases *cases, int scenario, int number, char name[CZ_NAME_ROOM]) {
-    char end[CZ_NAME_ROOM];
+void cz_case_name(const CzCases *cases, int scenario, int number, char name[CZ_NAME_SIZE]) {
+    char end[CZ_NAME_SIZE];
     const char *own = cz_problem_scenario_name(cases->problem, cases->scenario[scenario]);
     number = cases->n_earlier + 1 + (number < 0 ? 0 : number);
     snprintf(end, sizeof end, "-%.12s-%d", cases->word, number);
-    if (strlen(own) + strlen(end) > CZ_MOST_NAME) /* unlike that of another that is cut */
+    if (strlen(own) + strlen(end) > CZ_MAX_NAME) /* unlike that of another that is cut */
         snprintf(end, sizeof end, "-%d-%.12s-%d", cases->scenario[scenario] + 1, cases->word,
                  number);
-    cz_text_copy(name, CZ_NAME_ROOM - strlen(end), own);
+    cz_text_copy(name, CZ_NAME_SIZE - strlen(end), own);
     strcat(name, end);
 }

@@ -55,7 +55,7 @@ typedef struct Made {
     int n_case;
     CzCase *list;               /* (n_case) */
     CzCaseChange *change;       /* of one case after the other */
-    char (*name)[CZ_NAME_ROOM]; /* (n_case) */
+    char (*name)[CZ_NAME_SIZE]; /* (n_case) */
 } Made;
 
 static void free_made(Made *made) {

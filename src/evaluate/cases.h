@@ -33,7 +33,7 @@ CZ_MUST_CHECK CzStatus cz_cases_scenarios(const CzProblem *problem, const CzText
 int cz_cases_n_earlier(const CzProblem *problem, const char *word);
 
 /* Name of a scenario of the list in a case, which is counted from 0, behind earlier ones. */
-void cz_case_name(const CzCases *cases, int scenario, int number, char name[CZ_NAME_ROOM]);
+void cz_case_name(const CzCases *cases, int scenario, int number, char name[CZ_NAME_SIZE]);
 
 /* The change that sets the value of a draw at one of its paths. */
 static inline CzCaseChange cz_case_change(const CzDraw *draw, int path, double value) {

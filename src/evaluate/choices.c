@@ -42,7 +42,7 @@ static CzStatus read_choice(const CzProblem *problem, const CzDesignVariable *va
 
 CzStatus cz_choice_find_start(const CzProblem *problem, const CzDesignVariable *variable, int *own,
                               CzError *error) {
-    CzProblem *chosen[CZ_MOST_COMBINATIONS] = {NULL};
+    CzProblem *chosen[CZ_MAX_COMBINATIONS] = {NULL};
     int n_vehicle;
     const CzVehicle *vehicles = cz_problem_vehicles(problem, &n_vehicle);
     CzStatus status = CZ_OK;

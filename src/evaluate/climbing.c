@@ -45,7 +45,7 @@ CzClimbing cz_climbing_of(const CzEvaluator *evaluator, int scenario) {
         const bool counts =
             check->scenario == scenario && check->missing == NULL && check->metric.kind != NULL;
         const int group = counts ? group_of(check->metric.kind->name) : -1;
-        if (group < 0 || climbing.n_check == CZ_MOST_CLIMBING_CHECKS)
+        if (group < 0 || climbing.n_check == CZ_MAX_CLIMBING_CHECKS)
             continue;
         has[group] = true;
         climbing.check[climbing.n_check++] = *check;
@@ -58,7 +58,7 @@ CzClimbing cz_climbing_of(const CzEvaluator *evaluator, int scenario) {
                          .is_minimum = ground->is_minimum,
                          .source = "ours"};
         if (has[ground->group] || isnan(ground->limit) ||
-            climbing.n_check == CZ_MOST_CLIMBING_CHECKS ||
+            climbing.n_check == CZ_MAX_CLIMBING_CHECKS ||
             cz_metric_parse(ground->metric, &check.metric, NULL) != CZ_OK)
             continue;
         check.scale = check.metric.kind->scale;

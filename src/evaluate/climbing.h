@@ -4,13 +4,13 @@
 
 #include "evaluate/evaluator_parts.h"
 
-enum { CZ_MOST_CLIMBING_CHECKS = 32 };
+enum { CZ_MAX_CLIMBING_CHECKS = 32 };
 
 /* The checks for climbing in one scenario. */
 typedef struct CzClimbing {
     int scenario;
     int n_check;
-    CzCheck check[CZ_MOST_CLIMBING_CHECKS];
+    CzCheck check[CZ_MAX_CLIMBING_CHECKS];
 } CzClimbing;
 
 /* Whether a check of this kind is one of climbing. */

@@ -293,10 +293,10 @@ static CzStatus settle_choice(const Builder *builder, const CzVariable *written,
                               CzDesignVariable *variable) {
     CzVariableInfo *info = &variable->info;
     const int n = written->choices.n_text;
-    if (n > CZ_MOST_COMBINATIONS)
+    if (n > CZ_MAX_COMBINATIONS)
         return cz_problem_fail(builder->problem, &written->choices, builder->error,
                                "'%s' has more than %d choices", info->name,
-                               (int)CZ_MOST_COMBINATIONS);
+                               (int)CZ_MAX_COMBINATIONS);
     info->n_choice = n;
     info->choice = written->choices.text;
     info->min = 0;
@@ -342,10 +342,10 @@ static CzStatus add_variable(Builder *builder, const CzVariable *written, int ma
     if (!design->is_fit)
         CZ_TRY(check_partners(builder, field_of(written), variable));
     design->n_variable++;
-    if (cz_design_n_combination(design) > CZ_MOST_COMBINATIONS)
+    if (cz_design_n_combination(design) > CZ_MAX_COMBINATIONS)
         return cz_problem_fail(builder->problem, &written->choices, builder->error,
                                "there are more than %d combinations of choices",
-                               (int)CZ_MOST_COMBINATIONS);
+                               (int)CZ_MAX_COMBINATIONS);
     return CZ_OK;
 }
 

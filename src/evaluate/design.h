@@ -66,7 +66,7 @@ void cz_design_apply(const CzDesign *design, int variation, const double *x, CzV
 
 /* ---- choices ---- */
 
-enum { CZ_MOST_COMBINATIONS = 64 };
+enum { CZ_MAX_COMBINATIONS = 64 };
 
 /* Finds the choice of the file itself; any two choices must differ. Statuses: CZ_OK,
  * CZ_STATUS_INPUT without a place, CZ_STATUS_NO_MEMORY. */

@@ -11,15 +11,15 @@
 
 #include "problem/strokes.h"
 
-enum { MOST_DEVICES = 4 }; /* of one end: two tubes, an anti-climber, a side buffer's tube */
+enum { MAX_DEVICES = 4 }; /* of one end: two tubes, an anti-climber, a side buffer's tube */
 
 /* The collapsing device at a place of an end. */
 static CzDevice device_of(const CzEnd *end, int place) {
-    const CzDevice devices[MOST_DEVICES] = {
+    const CzDevice devices[MAX_DEVICES] = {
         CZ_DEVICE(&end->coupler.tube), CZ_DEVICE(&end->coupler.second_tube),
         CZ_DEVICE(&end->anti_climber), CZ_DEVICE(&end->side_buffers.tube)};
     CzDevice device = devices[place];
-    if (place == MOST_DEVICES - 1)
+    if (place == MAX_DEVICES - 1)
         device.count *= end->side_buffers.count;
     return device;
 }
@@ -32,7 +32,7 @@ static double installed_length(CzDevice device) {
 
 double cz_stroke_fit(const CzEnd *end) {
     double worst = NAN;
-    for (int i = 0; i < MOST_DEVICES; i++) {
+    for (int i = 0; i < MAX_DEVICES; i++) {
         const CzDevice device = device_of(end, i);
         if (device.given)
             worst = fmax(worst,
@@ -216,13 +216,13 @@ double cz_force_ladder(const CzEnd *end, double rate) {
 
 /* The device at a place of a train, counted from the first vehicle, rear before front. */
 static CzDevice device_at(const CzVehicle *vehicle, int place) {
-    const int i = place / MOST_DEVICES;
+    const int i = place / MAX_DEVICES;
     return device_of(i % 2 == 0 ? &vehicle[i / 2].rear : &vehicle[i / 2].front,
-                     place % MOST_DEVICES);
+                     place % MAX_DEVICES);
 }
 
 static int n_place(int n_vehicle) {
-    return 2 * n_vehicle * MOST_DEVICES;
+    return 2 * n_vehicle * MAX_DEVICES;
 }
 
 static double device_mass(CzDevice device) {

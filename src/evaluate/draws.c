@@ -90,7 +90,7 @@ static CzStatus set_range(Lister *lister) {
 
 /* Appends the draw of some paths; `of` names its part or place, NULL for all places. */
 static bool add(Lister *lister, int n_path, const char *const *path, const char *of, int n_place) {
-    char name[CZ_LABEL_ROOM + CZ_PATH_ROOM + 4];
+    char name[CZ_LABEL_SIZE + CZ_PATH_SIZE + 4];
     if (lister->n == lister->room) {
         const int room = 2 * lister->room + 8;
         CzDraw *more = cz_arena_allocate(lister->arena, (size_t)room, sizeof *more);
@@ -149,7 +149,7 @@ static bool add_part(Lister *lister, int i, int n_place) {
     int n_path = 0;
     for (int k = 0; path != NULL && k < lister->paths->n_text; k++) {
         const char *pattern = lister->paths->text[k];
-        char text[CZ_PATH_ROOM];
+        char text[CZ_PATH_SIZE];
         const bool is_any = strncmp(pattern, "parts.*", 7) == 0;
         if (!is_any && !same_part(pattern, place))
             continue;
@@ -158,7 +158,7 @@ static bool add_part(Lister *lister, int i, int n_place) {
         if (path[n_path++] == NULL)
             return false;
     }
-    char of[CZ_PATH_ROOM];
+    char of[CZ_PATH_SIZE];
     snprintf(of, sizeof of, "%.*s", (int)(n - 6), place + 6);
     return path != NULL && add(lister, n_path, path, of, n_place);
 }
@@ -320,11 +320,11 @@ CzStatus cz_draws_fill(const CzProblem *problem, long seed, int n, int n_draw, c
                        double *value, CzError *error) {
     const CzUncertainty *uncertainty = &cz_problem_input(problem)->uncertainty;
     const CzSamplingMethod method = (CzSamplingMethod)uncertainty->sampling;
-    if (method == CZ_SAMPLING_SOBOL && n_draw > CZ_SOBOL_MOST_DRAWS)
+    if (method == CZ_SAMPLING_SOBOL && n_draw > CZ_SOBOL_MAX_DRAWS)
         return cz_problem_fail(problem, &uncertainty->sampling, error,
                                "'sobol' has points of at most %d dimensions, and the parameters "
                                "have %d draws" CZ_HELP "use 'sampling: latin_hypercube'",
-                               (int)CZ_SOBOL_MOST_DRAWS, n_draw);
+                               (int)CZ_SOBOL_MAX_DRAWS, n_draw);
     double *u = malloc((size_t)n * sizeof *u);
     if (u == NULL)
         return cz_no_memory(error, "the values of a sample");

@@ -12,8 +12,8 @@
 /* A metric that the caller wants of every evaluation. */
 typedef struct CzWanted {
     CzMetric metric;
-    char name[CZ_PATH_ROOM];
-    char scenario[CZ_NAME_ROOM]; /* only this scenario or family; empty for all */
+    char name[CZ_PATH_SIZE];
+    char scenario[CZ_NAME_SIZE]; /* only this scenario or family; empty for all */
 } CzWanted;
 
 struct CzEvaluator {

@@ -221,7 +221,7 @@ static CzStatus search_changes(Search *search, CzExplanation *explanation, CzErr
 
 __attribute__((format(printf, 4, 5))) static void
 indicate(CzExplanation *explanation, CzCause cause, double time, const char *format, ...) {
-    if (explanation->n_indicator == CZ_MOST_INDICATORS)
+    if (explanation->n_indicator == CZ_MAX_INDICATORS)
         return;
     CzIndicator *indicator = &explanation->indicator[explanation->n_indicator++];
     indicator->cause = cause;

@@ -16,7 +16,7 @@
 
 /* Changes of a number, relative to its size (ours). */
 static const double steps[] = {-0.5, -0.25, -0.1, 0.1, 0.25, 0.5};
-enum { N_STEP = sizeof steps / sizeof *steps, MOST_NUMBERS = 64 };
+enum { N_STEP = sizeof steps / sizeof *steps, MAX_NUMBERS = 64 };
 
 #define SMALLEST_GAIN 1e-3 /* of the margin, for a change that helps (ours) */
 
@@ -33,7 +33,7 @@ typedef struct Trial {
     CzEvaluator *evaluator;
     int n_variable;
     int n_number;
-    Number number[MOST_NUMBERS];
+    Number number[MAX_NUMBERS];
     int n_design;
     double *x;                /* (n_design x n_variable) */
     CzEvaluation *evaluation; /* (n_design) */
@@ -63,10 +63,10 @@ static CzStatus build_varying(const CzEvaluator *evaluator, CzVaryingNumber *num
     options.first_scenario = evaluator->first_scenario;
     options.beside = evaluator;
     bool *is_partner = mark_partners(evaluator);
-    const CzStatus found = is_partner != NULL
-                               ? cz_problem_find_varying(evaluator->problem, is_partner,
-                                                         MOST_NUMBERS, number, n, error)
-                               : cz_no_memory(error, "the changes");
+    const CzStatus found =
+        is_partner != NULL
+            ? cz_problem_find_varying(evaluator->problem, is_partner, MAX_NUMBERS, number, n, error)
+            : cz_no_memory(error, "the changes");
     free(is_partner);
     CZ_TRY(found);
     if (*n == 0)
@@ -79,7 +79,7 @@ static CzStatus build_varying(const CzEvaluator *evaluator, CzVaryingNumber *num
 
 static void add_number(Trial *trial, int variable, double size) {
     const CzVariableInfo *info = cz_evaluator_variable(trial->evaluator, variable);
-    if (trial->n_number == MOST_NUMBERS || info->n_choice > 0 || info->is_fixed || !(size > 0))
+    if (trial->n_number == MAX_NUMBERS || info->n_choice > 0 || info->is_fixed || !(size > 0))
         return;
     Number *number = &trial->number[trial->n_number];
     *number = (Number){.variable = variable, .size = size, .first = trial->n_design};
@@ -192,7 +192,7 @@ static CzTriedChange effect_of(const Trial *trial, const Number *number, int ste
                             .tried = info->start + number->change[step] * number->size,
                             .change = number->change[step],
                             .margin = NAN};
-    snprintf(change.name, sizeof change.name, "%.*s", CZ_PATH_ROOM - 1, info->name);
+    snprintf(change.name, sizeof change.name, "%.*s", CZ_PATH_SIZE - 1, info->name);
     snprintf(change.unit, sizeof change.unit, "%.15s", info->unit);
     if (now->status != CZ_OK)
         return change;
@@ -260,7 +260,7 @@ CzStatus cz_explain_changes(CzEvaluator *evaluator, const CzExplainOptions *opti
         for (int i = 0; i < trial.n_variable; i++)
             add_number(&trial, i, fabs(cz_evaluator_variable(evaluator, i)->start));
     } else {
-        CzVaryingNumber *number = calloc(MOST_NUMBERS, sizeof *number);
+        CzVaryingNumber *number = calloc(MAX_NUMBERS, sizeof *number);
         status = number != NULL ? build_varying(evaluator, number, &trial.n_variable, &problem,
                                                 &varying, error)
                                 : cz_no_memory(error, "the changes");

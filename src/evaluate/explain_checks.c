@@ -148,7 +148,7 @@ static void find_time(const Site *site, CzExplainedCheck *explained) {
 
 static void add_carrier(CzExplainedCheck *explained, const char *what, const char *of,
                         double amount) {
-    if (explained->n_carrier == CZ_MOST_CARRIERS || !(amount > 0))
+    if (explained->n_carrier == CZ_MAX_CARRIERS || !(amount > 0))
         return;
     CzCarrier *carrier = &explained->carrier[explained->n_carrier++];
     snprintf(carrier->what, sizeof carrier->what, "%s of %s", what, of);
@@ -290,7 +290,7 @@ static void find_states(const Site *site, CzExplainedCheck *explained) {
         const CzInterfaceResult *interface = &site->summary->interface[index];
         for (int i = 0; i < interface->n_element; i++) {
             if (interface->element[i].kind == CZ_ELEMENT_DRAW_GEAR ||
-                explained->n_state == CZ_MOST_STATES)
+                explained->n_state == CZ_MAX_STATES)
                 continue;
             explained->state[explained->n_state++] =
                 state_of(site->summary, index, &interface->element[i], explained->time[1]);
@@ -323,7 +323,7 @@ static void keep(CzExplanation *explanation, const CzCheckResult *check) {
             *kept = *check;
         return;
     }
-    if (explanation->n_check < CZ_MOST_EXPLAINED)
+    if (explanation->n_check < CZ_MAX_EXPLAINED)
         explanation->check[explanation->n_check++].check = *check;
 }
 
@@ -376,7 +376,7 @@ static CzStatus keep_named(CzExplanation *explanation, const CzEvaluator *evalua
 CzStatus cz_explain_checks(const CzEvaluator *evaluator, const CzEvaluation *evaluation,
                            const CzExplainOptions *options, CzExplanation *explanation,
                            CzError *error) {
-    explanation->check = calloc(CZ_MOST_EXPLAINED, sizeof *explanation->check);
+    explanation->check = calloc(CZ_MAX_EXPLAINED, sizeof *explanation->check);
     if (explanation->check == NULL)
         return cz_no_memory(error, "an explanation");
     for (int i = 0; i < options->n_check; i++)

@@ -31,7 +31,7 @@ static CzStatus find_event(const char *text, CzEventKind *event, CzError *error)
 /* Finds the channel that a text names among those of a scenario's vehicles. */
 static CzStatus find_channel(const char *text, const CzScene *scene, CzArena *arena,
                              CzColumn *column, CzError *error) {
-    char nearest[CZ_CHANNEL_ROOM];
+    char nearest[CZ_CHANNEL_SIZE];
     const char **name = cz_arena_allocate(arena, (size_t)scene->n_vehicle, sizeof *name);
     if (name == NULL)
         return cz_no_memory(error, "the matches");
@@ -127,12 +127,12 @@ static double value_at(const CzRun *run, const double *values, double time, int 
     return values[i] + share * (values[i + 1] - values[i]);
 }
 
-enum { MOST_STRETCHES = 100 };
+enum { MAX_STRETCHES = 100 };
 
 int cz_match_n_detail(const CzMatchItem *item) {
     if (item->measured == NULL)
         return 1;
-    return item->measured->n_point < MOST_STRETCHES ? item->measured->n_point : MOST_STRETCHES;
+    return item->measured->n_point < MAX_STRETCHES ? item->measured->n_point : MAX_STRETCHES;
 }
 
 /* The mean square difference; the mean difference of each stretch is its detail, so that for short

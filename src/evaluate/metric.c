@@ -57,10 +57,10 @@ static void cut_parameters(char *metric, char *text, size_t n_text) {
 }
 
 CzStatus cz_metric_parse(const char *text, CzMetric *metric, CzError *error) {
-    char copy[CZ_PATH_ROOM], name[CZ_PATH_ROOM], whole[CZ_PATH_ROOM], parameters[CZ_PATH_ROOM];
+    char copy[CZ_PATH_SIZE], name[CZ_PATH_SIZE], whole[CZ_PATH_SIZE], parameters[CZ_PATH_SIZE];
     if (strlen(text) >= sizeof copy)
         return cz_fail(error, CZ_STATUS_INPUT, "the metric '%.40s...' is longer than %d bytes",
-                       text, CZ_PATH_ROOM - 1);
+                       text, CZ_PATH_SIZE - 1);
     snprintf(whole, sizeof whole, "%s", text);
     cut_parameters(whole, parameters, sizeof parameters);
     snprintf(copy, sizeof copy, "%s", whole);
@@ -94,7 +94,7 @@ typedef struct Sum {
     int n_known;
     double extreme, total; /* in the unit */
     double when[2];        /* of the extreme [s] */
-    char where[CZ_WHERE_ROOM], unknown_where[CZ_WHERE_ROOM];
+    char where[CZ_WHERE_SIZE], unknown_where[CZ_WHERE_SIZE];
     bool any_unknown;
 } Sum;
 

@@ -36,7 +36,7 @@ typedef struct CzMetricParameter {
     const char *doc;
 } CzMetricParameter;
 
-enum { CZ_MOST_METRIC_PARAMETERS = 2 }; /* of one metric */
+enum { CZ_MAX_METRIC_PARAMETERS = 2 }; /* of one metric */
 
 /* Scale that marks a yes or no. */
 #define CZ_FLAG_SCALE (-1.0)
@@ -52,8 +52,8 @@ typedef enum CzAggregate {
 typedef struct CzMetric {
     const CzMetricKind *kind;
     CzAggregate aggregate;
-    char selector[CZ_PATH_ROOM];                 /* "*" for all */
-    double parameter[CZ_MOST_METRIC_PARAMETERS]; /* SI, in the order of the list */
+    char selector[CZ_PATH_SIZE];                /* "*" for all */
+    double parameter[CZ_MAX_METRIC_PARAMETERS]; /* SI, in the order of the list */
 } CzMetric;
 
 typedef enum CzKnown {
@@ -65,10 +65,10 @@ typedef enum CzKnown {
 typedef struct CzMetricValue {
     CzKnown known;
     double value;              /* in the metric's unit */
-    char where[CZ_WHERE_ROOM]; /* place of the worst value */
+    char where[CZ_WHERE_SIZE]; /* place of the worst value */
     double when[2]; /* begin and end of the time at which it was reached [s]; NaN for a sum or mean,
                        or when the time is not stored */
-    char unknown_where[CZ_WHERE_ROOM]; /* first place without the required declarations; empty when
+    char unknown_where[CZ_WHERE_SIZE]; /* first place without the required declarations; empty when
                                         * none
                                         */
     const char *why;                   /* when not known; static */

@@ -58,7 +58,7 @@ bool cz_metric_needs_pulse(const CzMetric *metric) {
 static CzStatus read_parameter(const char *text, int n, const CzMetricParameter *parameter,
                                CzMetric *metric, CzError *error) {
     const char *equals = strchr(text, '=');
-    char name[CZ_PATH_ROOM];
+    char name[CZ_PATH_SIZE];
     double value;
     snprintf(name, sizeof name, "%.*s", equals != NULL ? (int)(equals - text) : 0, text);
     if (equals == NULL || !cz_number_scan(equals + 1, &value))
@@ -86,7 +86,7 @@ CzStatus cz_metric_read_parameters(const char *text, CzMetric *metric, CzError *
         metric->parameter[i] = parameter[i].usual * parameter[i].in_si;
     for (const char *next = text; *next != '\0';) {
         const size_t length = strcspn(next, ",");
-        char one[CZ_PATH_ROOM];
+        char one[CZ_PATH_SIZE];
         const size_t blank = strspn(next, " ");
         snprintf(one, sizeof one, "%.*s", (int)(length > blank ? length - blank : 0), next + blank);
         CZ_TRY(read_parameter(one, n, parameter, metric, error));

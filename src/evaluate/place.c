@@ -74,7 +74,7 @@ static bool picks_element(const char *selector, const char *interface, const cha
     const size_t n = strlen(alias);
     if (strncmp(selector, alias, n) == 0)
         return cz_matches(selector + n, element);
-    char name[CZ_INTERFACE_ROOM + CZ_WHERE_ROOM];
+    char name[CZ_INTERFACE_SIZE + CZ_WHERE_SIZE];
     snprintf(name, sizeof name, "%s %s", interface, element);
     return cz_matches(selector, name);
 }
@@ -172,7 +172,7 @@ static void visit_sections(Walk *walk, bool is_colliding) {
         walk->place.end = side == 0 ? &record->front : &record->rear;
         walk->place.section_force = interface->section_force[side];
         walk->place.element = end_of(interface, vehicle);
-        char name[CZ_WHERE_ROOM];
+        char name[CZ_WHERE_SIZE];
         snprintf(name, sizeof name, "%s %s", walk->subject->run->vehicle[vehicle].name,
                  side == 0 ? "front" : "rear");
         call_of(walk, record, name);
@@ -211,7 +211,7 @@ static void visit_ends(Walk *walk) {
     for (int i = 0; i < 2 * subject->n_vehicle; i++) {
         const CzVehicle *record = &subject->vehicles[i / 2];
         const CzEnd *end = i % 2 == 0 ? &record->rear : &record->front;
-        char name[CZ_WHERE_ROOM];
+        char name[CZ_WHERE_SIZE];
         snprintf(name, sizeof name, "%s %s", vehicle_name(record), i % 2 == 0 ? "rear" : "front");
         const bool is_passed_over = subject->is_obstacle != NULL && subject->is_obstacle[i / 2] &&
                                     has_wildcard(walk->selector);
@@ -268,7 +268,7 @@ static int count_elements(const CzEnd *end, const char *vehicle, const char *int
                                          [CZ_ELEMENT_SLIDE] = end->slide.given};
     int n = 0;
     for (int kind = 0; kind < CZ_N_ELEMENT_KIND; kind++) {
-        char name[CZ_WHERE_ROOM];
+        char name[CZ_WHERE_SIZE];
         snprintf(name, sizeof name, "%s %s", cz_element_text((CzElementKind)kind), vehicle);
         n += has[kind] && picks_element(selector, interface, name, is_colliding);
     }
@@ -287,7 +287,7 @@ int cz_places_count(const CzScene *scene, CzLevel level, const char *selector) {
     for (int i = 0; i + 1 < scene->n_vehicle; i++) {
         const CzVehicle *behind = scene->vehicle[i], *ahead = scene->vehicle[i + 1];
         const bool is_colliding = i == scene->colliding;
-        char name[CZ_WHERE_ROOM];
+        char name[CZ_WHERE_SIZE];
         snprintf(name, sizeof name, "%s-%s", vehicle_name(behind), vehicle_name(ahead));
         if (level == CZ_LEVEL_ELEMENT) {
             n += count_elements(&behind->front, vehicle_name(behind), name, selector, is_colliding);

@@ -39,7 +39,7 @@ typedef struct CzPlace {
     double rate;             /* crush rate for tube forces [m/s] */
     const double *parameter; /* of the metric that is read, SI */
     bool must_declare; /* a full vehicle: values that it does not declare are unknown, not absent */
-    char name[CZ_WHERE_ROOM];
+    char name[CZ_WHERE_SIZE];
 } CzPlace;
 
 /* Source of metrics: one run of a scenario, or the design alone. */

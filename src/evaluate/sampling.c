@@ -18,9 +18,9 @@
 #include "simulate/batch.h"
 
 enum {
-    FEWEST_PER_TASK = 4, /* samples, which share the set-up of the track (measured) */
-    MOST_PER_TASK = 16,  /* in memory at a time (ours) */
-    TASKS_PER_PLACE = 2  /* of a wave */
+    MIN_PER_TASK = 4,   /* samples, which share the set-up of the track (measured) */
+    MAX_PER_TASK = 16,  /* in memory at a time (ours) */
+    TASKS_PER_PLACE = 2 /* of a wave */
 };
 
 /* Common data of all samples. */
@@ -227,8 +227,8 @@ static CzStatus answer_samples(void *study, CzReading *request, CzMemoryText *an
     const Opened *opened = study;
     CzSampling *sampling = opened->sampler.sampling;
     const int n = cz_get_int(request);
-    int sample[MOST_PER_TASK];
-    if (n < 1 || n > MOST_PER_TASK)
+    int sample[MAX_PER_TASK];
+    if (n < 1 || n > MAX_PER_TASK)
         return cz_no_memory(error, "a task");
     cz_get(request, sample, (size_t)n, sizeof *sample);
     CZ_TRY(run_samples(&opened->sampler, n, sample, error));
@@ -260,9 +260,9 @@ static int count_per_task(const Sampler *sampler, int n_place) {
     const CzModel *model = parts->evaluator->model[cases->scenario[0]];
     const int n_fill = model != NULL ? cz_simulate_batch_width(model) / cases->n_scenario : 0;
     const int n_even = (sampler->n_due + n_place - 1) / n_place;
-    const int n = n_fill < MOST_PER_TASK ? n_fill : MOST_PER_TASK;
-    const int at_most = n_even > FEWEST_PER_TASK ? n_even : FEWEST_PER_TASK;
-    return n < FEWEST_PER_TASK ? FEWEST_PER_TASK : n < at_most ? n : at_most;
+    const int n = n_fill < MAX_PER_TASK ? n_fill : MAX_PER_TASK;
+    const int at_most = n_even > MIN_PER_TASK ? n_even : MIN_PER_TASK;
+    return n < MIN_PER_TASK ? MIN_PER_TASK : n < at_most ? n : at_most;
 }
 
 static CzStatus run_due(Sampler *sampler, CzError *error) {

@@ -62,8 +62,8 @@ static CzSampledShare share_of(const Statistics *statistics, int n) {
 
 static CzStatus set_convergence(Statistics *statistics, CzError *error) {
     CzSampling *sampling = statistics->sampling;
-    enum { MOST = 32 }; /* doublings of an int, and the last */
-    sampling->convergence = malloc(MOST * sizeof *sampling->convergence);
+    enum { MAX_DOUBLINGS = 32 }; /* doublings of an int, and the last */
+    sampling->convergence = malloc(MAX_DOUBLINGS * sizeof *sampling->convergence);
     if (sampling->convergence == NULL)
         return cz_no_memory(error, "the statistics of a sample");
     for (long long n = 1; n < statistics->n; n *= 2)

@@ -40,8 +40,8 @@ static CzStatus read_problem(const Sweeping *sweeping, const CzSweepPoint *point
                              CzProblem **problem, CzError *error) {
     const CzSweepOptions *options = sweeping->options;
     CzProblemOptions with = *sweeping->problem_options;
-    char text[CZ_MOST_AXES][sizeof options->axis->path + CZ_NUMBER_TEXT + 1];
-    const char **set = malloc(((size_t)with.n_set + CZ_MOST_AXES) * sizeof *set);
+    char text[CZ_MAX_AXES][sizeof options->axis->path + CZ_NUMBER_TEXT + 1];
+    const char **set = malloc(((size_t)with.n_set + CZ_MAX_AXES) * sizeof *set);
     if (set == NULL)
         return cz_no_memory(error, "the settings of a point");
     for (int i = 0; i < with.n_set; i++)
@@ -172,13 +172,13 @@ static void lay_out(CzSweep *sweep) {
     for (int i = 0; i < sweep->n_point; i++) {
         CzSweepPoint *point = &sweep->point[i];
         const int n_last = sweep->axis[sweep->n_axis - 1].n;
-        const int index[CZ_MOST_AXES] = {sweep->n_axis == 2 ? i / n_last : i, i % n_last};
+        const int index[CZ_MAX_AXES] = {sweep->n_axis == 2 ? i / n_last : i, i % n_last};
         for (int k = 0; k < sweep->n_axis; k++)
             point->value[k] = cz_sweep_axis_value(&sweep->axis[k], index[k]);
         point->state = CZ_SWEEP_NOT_RUN;
         point->verdict = CZ_VERDICT_NOT_CHECKED;
         point->margin = NAN;
-        for (int k = 0; k < CZ_MOST_SWEPT_METRICS; k++)
+        for (int k = 0; k < CZ_MAX_SWEPT_METRICS; k++)
             point->metric[k] = NAN;
     }
 }
@@ -186,16 +186,16 @@ static void lay_out(CzSweep *sweep) {
 static CzStatus prepare(Sweeping *sweeping, CzError *error) {
     const CzSweepOptions *options = sweeping->options;
     CzSweep *sweep = sweeping->sweep;
-    if (options->n_axis < 1 || options->n_axis > CZ_MOST_AXES)
+    if (options->n_axis < 1 || options->n_axis > CZ_MAX_AXES)
         return cz_fail(error, CZ_STATUS_INPUT, "a sweep has one or two paths, not %d",
                        options->n_axis);
     if (options->n_axis == 2 && cz_key_same_stem(options->axis[0].path, options->axis[1].path))
         return cz_fail(error, CZ_STATUS_INPUT,
                        "both paths of the sweep name one value: '%.160s' and '%.160s'",
                        options->axis[0].path, options->axis[1].path);
-    if (options->n_metric > CZ_MOST_SWEPT_METRICS)
+    if (options->n_metric > CZ_MAX_SWEPT_METRICS)
         return cz_fail(error, CZ_STATUS_INPUT, "a sweep prints at most %d metrics",
-                       (int)CZ_MOST_SWEPT_METRICS);
+                       (int)CZ_MAX_SWEPT_METRICS);
     sweep->n_axis = options->n_axis;
     sweep->n_metric = options->n_metric;
     sweep->n_point = 1;

@@ -26,7 +26,7 @@ static int compare_numbers(const void *a, const void *b) {
 /* Reads a list such as "8,15,25"; false when it is none, or has a value twice. */
 static bool read_list(const char *text, CzSweepAxis *axis) {
     axis->n = 0;
-    for (const char *from = text; from != NULL && axis->n < CZ_MOST_LISTED;) {
+    for (const char *from = text; from != NULL && axis->n < CZ_MAX_LISTED;) {
         char number[2 * CZ_NUMBER_TEXT];
         const size_t length = strcspn(from, ",");
         if (length >= sizeof number)
@@ -36,7 +36,7 @@ static bool read_list(const char *text, CzSweepAxis *axis) {
             return false;
         axis->n++;
         from = from[length] == ',' ? from + length + 1 : NULL;
-        if (from != NULL && axis->n == CZ_MOST_LISTED)
+        if (from != NULL && axis->n == CZ_MAX_LISTED)
             return false;
     }
     qsort(axis->listed, (size_t)axis->n, sizeof *axis->listed, compare_numbers);
@@ -71,7 +71,7 @@ CzStatus cz_sweep_axis_parse(const char *text, CzSweepAxis *axis, CzError *error
             snprintf(error->help, sizeof error->help,
                      "such as trains.A.speed_km_h=5:40:8, with 2 to %d values, or "
                      "trains.A.speed_km_h=8,15,25, with 2 to %d different values",
-                     (int)CZ_MOST_IN_RANGE, (int)CZ_MOST_LISTED);
+                     (int)CZ_MAX_IN_RANGE, (int)CZ_MAX_LISTED);
         return CZ_STATUS_INPUT;
     }
     snprintf(axis->path, sizeof axis->path, "%.*s", (int)(equals - text), text);

@@ -1,4 +1,4 @@
-/* Histories of the points of a sweep: completed points, at most CZ_MOST_SWEPT_CURVES of them at
+/* Histories of the points of a sweep: completed points, at most CZ_MAX_SWEPT_CURVES of them at
  * equal distances, run once more with everything recorded. */
 #include "evaluate/sweep_curves.h"
 
@@ -36,12 +36,12 @@ static void choose_scenario(CzSweep *sweep, const char *asked) {
 /* Chooses the points; false without memory. */
 static bool choose_points(CzSweep *sweep) {
     int n_done = 0, n_seen = 0;
-    sweep->curve = calloc(CZ_MOST_SWEPT_CURVES, sizeof *sweep->curve);
+    sweep->curve = calloc(CZ_MAX_SWEPT_CURVES, sizeof *sweep->curve);
     if (sweep->curve == NULL)
         return false;
     for (int i = 0; i < sweep->n_point; i++)
         n_done += sweep->point[i].state == CZ_SWEEP_DONE;
-    const int n = n_done < CZ_MOST_SWEPT_CURVES ? n_done : CZ_MOST_SWEPT_CURVES;
+    const int n = n_done < CZ_MAX_SWEPT_CURVES ? n_done : CZ_MAX_SWEPT_CURVES;
     for (int i = 0; i < sweep->n_point && sweep->n_curve < n; i++) {
         if (sweep->point[i].state != CZ_SWEEP_DONE)
             continue;

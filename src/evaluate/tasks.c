@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-enum { MOST_THREADS = 64 };
+enum { MAX_THREADS = 64 };
 
 struct CzTasks {
     int n;
@@ -15,7 +15,7 @@ struct CzTasks {
     const CzTaskData *plain; /* NULL for tasks of this process alone */
     void *data;
     atomic_int next; /* the first task that no thread has taken */
-    pthread_t thread[MOST_THREADS];
+    pthread_t thread[MAX_THREADS];
     int n_thread;
     pthread_mutex_t lock; /* protects the following members */
     int failed;           /* first task that failed; n when none did */
@@ -124,7 +124,7 @@ static CzStatus start_threads(const CzExecutor *executor, CzTasks *tasks, CzErro
     const int n_place = executor->n_place;
     const int n_wanted = (n_place < tasks->n ? n_place : tasks->n) - 1;
     (void)error;
-    while (tasks->n_thread < n_wanted && tasks->n_thread < MOST_THREADS &&
+    while (tasks->n_thread < n_wanted && tasks->n_thread < MAX_THREADS &&
            pthread_create(&tasks->thread[tasks->n_thread], NULL, work, tasks) == 0)
         tasks->n_thread++;
     return CZ_OK;

@@ -25,9 +25,9 @@
 #define RISE_FOOT 0.2         /* part of that rise at which it begins (ours) */
 #define REVERSIBLE 0.1        /* largest permanent share of the stroke of a buffer alone (ours) */
 #define SHORTEST 0.05         /* of a buffer's stage, as a share of its stroke (ours) */
-#define STIFFER 2.0 /* factor over the steepest line from zero to a point of the curve (ours) */
-#define LEAST_STROKE 1e-3    /* of the largest: less is insufficient for a stiffness (ours) */
-#define LEAST_FORCE 0.1      /* of the highest: likewise (ours) */
+#define STIFFER 2.0     /* factor over the steepest line from zero to a point of the curve (ours) */
+#define MIN_STROKE 1e-3 /* of the largest: less is insufficient for a stiffness (ours) */
+#define MIN_FORCE 0.1   /* of the highest: likewise (ours) */
 #define WORTH_A_PRELOAD 0.05 /* of the buffer's force: a smaller preload is left out (ours) */
 
 enum { CELLS = 60, BUFFER_STAGES = 3 };
@@ -275,8 +275,8 @@ static CzStatus fit_buffer_alone(CzFit *fit, const CzBranch *branch, Parts *part
  * ratio of two numbers near zero is not used. */
 static double find_stiffness(const CzFit *fit) {
     const CzKey *key = cz_fit_key(CZ_RECORD_CzTube, "stiffness");
-    const double least_x = LEAST_STROKE * cz_branch_last(&fit->curve);
-    const double least_f = LEAST_FORCE * fit->summary.peak_force;
+    const double least_x = MIN_STROKE * cz_branch_last(&fit->curve);
+    const double least_f = MIN_FORCE * fit->summary.peak_force;
     double steepest = 0.0;
     for (int i = 0; i < fit->curve.n; i++)
         if (fit->curve.x[i] > least_x && fit->curve.f[i] > least_f)

@@ -48,7 +48,7 @@ static CzStatus make_curve(CzFit *fit, CzError *error) {
 static void put(CzFit *fit, CzRecordId record, const char *prefix, const char *typed, double si) {
     const CzUnit *unit = NULL;
     const CzKey *key = cz_record_match(&cz_records[record], typed, &unit);
-    if (!isfinite(si) || fit->summary.n_value == CZ_FIT_MOST_VALUES)
+    if (!isfinite(si) || fit->summary.n_value == CZ_FIT_MAX_VALUES)
         return;
     CzFitValue *next = &fit->value[fit->summary.n_value++];
     snprintf(next->path, sizeof next->path, "%s%s", prefix, typed);

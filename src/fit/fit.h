@@ -8,14 +8,14 @@
 #include "problem/trace.h"
 
 enum {
-    CZ_FIT_MOST_VALUES = 4 * CZ_MAX_STAGES + 16,
-    CZ_MOST_CORNERS = 2 * CZ_MOST_STAGED_BREAKPOINTS + 12
+    CZ_FIT_MAX_VALUES = 4 * CZ_MAX_STAGES + 16,
+    CZ_MAX_CORNERS = 2 * CZ_MAX_STAGED_BREAKPOINTS + 12
 };
 
 /* Force over shortening as straight lines; x never falls. */
 typedef struct CzLoading {
     int n;
-    double x[CZ_MOST_CORNERS], f[CZ_MOST_CORNERS];
+    double x[CZ_MAX_CORNERS], f[CZ_MAX_CORNERS];
 } CzLoading;
 
 struct CzFit {
@@ -42,7 +42,7 @@ struct CzFit {
 
     CzLoading whole; /* over the stroke of the curve */
 
-    CzFitValue value[CZ_FIT_MOST_VALUES]; /* (summary.n_value) */
+    CzFitValue value[CZ_FIT_MAX_VALUES]; /* (summary.n_value) */
     const CzFitValue *beyond; /* the first one outside the range of its key; NULL if none */
 };
 

@@ -26,7 +26,7 @@ static void add(CzLoading *loading, double x, double f) {
 /* Appends a staged curve whose stroke begins at `from`; returns its end. */
 static double add_staged(CzLoading *loading, const CzStaged *staged, double from,
                          double compliance) {
-    double at[CZ_MOST_STAGED_BREAKPOINTS];
+    double at[CZ_MAX_STAGED_BREAKPOINTS];
     CzBreakpoints breakpoints;
     if (staged->n_stage == 0)
         return from;

@@ -33,7 +33,7 @@ static const char *write_sentence(CzFit *fit, const char *format, va_list argume
 void cz_fit_add_note(CzFit *fit, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    if (fit->summary.n_note < CZ_FIT_MOST_NOTES)
+    if (fit->summary.n_note < CZ_FIT_MAX_NOTES)
         fit->summary.note[fit->summary.n_note++] = write_sentence(fit, format, arguments);
     va_end(arguments);
 }
@@ -43,7 +43,7 @@ void cz_fit_doubt_that(CzFit *fit, const char *format, ...) {
     va_start(arguments, format);
     if (fit->summary.verdict == CZ_FIT_GOOD)
         fit->summary.verdict = CZ_FIT_DOUBTFUL;
-    if (fit->summary.n_doubt < CZ_FIT_MOST_DOUBTS)
+    if (fit->summary.n_doubt < CZ_FIT_MAX_DOUBTS)
         fit->summary.doubt[fit->summary.n_doubt++] = write_sentence(fit, format, arguments);
     va_end(arguments);
 }

@@ -14,11 +14,11 @@
 #include "problem/reduce_curve.h"
 
 enum {
-    CELLS = 240,     /* of the grid for the search of plateaus */
-    SAMPLES = 600,   /* of a curve for the search of likely strokes */
-    LIKELY = 40,     /* strokes that are tried as ends of lines */
-    MOST_OF_OWN = 4, /* most stages unless more are requested */
-    MOST_LINES = 4
+    CELLS = 240,    /* of the grid for the search of plateaus */
+    SAMPLES = 600,  /* of a curve for the search of likely strokes */
+    LIKELY = 40,    /* strokes that are tried as ends of lines */
+    MAX_OF_OWN = 4, /* most stages unless more are requested */
+    MAX_LINES = 4
 };
 
 #define SHORTEST 0.005  /* of a stage, as a share of the stroke (ours) */
@@ -144,7 +144,7 @@ static double best_of(const Table *table, const CzBranch *branch, int n_stage, c
 
 bool cz_fit_plateaus(CzArena *arena, const CzBranch *branch, int n_stage, double stiffness,
                      CzStaged *staged) {
-    const int n_most = n_stage > 0 ? n_stage : MOST_OF_OWN;
+    const int n_most = n_stage > 0 ? n_stage : MAX_OF_OWN;
     Table *table = cz_arena_allocate(arena, 1, sizeof *table);
     CzStaged *found = cz_arena_allocate(arena, (size_t)n_most, sizeof *found);
     double squares[CZ_MAX_STAGES];
@@ -199,7 +199,7 @@ static double split_before(const Table *table, const CzBranch *branch, int n, do
 }
 
 bool cz_fit_split(CzArena *arena, const CzBranch *branch, int n_stage, double *at) {
-    const int n_most = n_stage > 0 ? n_stage : MOST_OF_OWN;
+    const int n_most = n_stage > 0 ? n_stage : MAX_OF_OWN;
     Table *table = cz_arena_allocate(arena, 1, sizeof *table);
     CzBranch mirrored;
     double left[CZ_MAX_STAGES], from[CZ_MAX_STAGES];
@@ -269,7 +269,7 @@ static void try_set(Trial *trial, const int *set, CzStaged *staged) {
 
 /* Tries the sets one after the other, in the order of the digits of a number. */
 static void try_all(Trial *trial, CzStaged staged) {
-    int set[MOST_LINES] = {0};
+    int set[MAX_LINES] = {0};
     const int n = staged.n_stage - 1;
     for (int i = 0; i < n; i++)
         set[i] = i;
@@ -296,8 +296,8 @@ static double best_lines(const CzBranch *branch, const double *stroke, int n_str
 }
 
 bool cz_fit_lines(CzArena *arena, const CzBranch *branch, const CzLines *lines, CzStaged *staged) {
-    double stroke[LIKELY], squares[MOST_LINES];
-    CzStaged found[MOST_LINES];
+    double stroke[LIKELY], squares[MAX_LINES];
+    CzStaged found[MAX_LINES];
     const double shortest = fmax(lines->shortest * cz_branch_last(branch), 1.1 * CZ_SHORTEST_STAGE);
     const int n_stroke = likely_strokes(arena, branch, shortest, stroke);
     if (n_stroke < 0)

@@ -4,14 +4,14 @@
 #include "problem/strokes.h"
 
 enum {
-    MOST_TERMS = CZ_MAX_STAGES + 1, /* forces of the stages and a preload */
+    MAX_TERMS = CZ_MAX_STAGES + 1, /* forces of the stages and a preload */
     SWEEPS = 28,
     SECTIONS = 24 /* steps of one line search */
 };
 
 #define GOLDEN 0.6180339887498949
-#define ROUNDING 1e-12   /* of a difference of integrals of squares, as a share of them */
-#define LEAST_FORCE 1e-3 /* of the mean force: smallest force of a stage (ours) */
+#define ROUNDING 1e-12 /* of a difference of integrals of squares, as a share of them */
+#define MIN_FORCE 1e-3 /* of the mean force: smallest force of a stage (ours) */
 
 CzStaged cz_staged_begin(bool is_strength) {
     return (CzStaged){.is_strength = is_strength, .trigger = NAN, .trigger_length = 0.01};
@@ -39,7 +39,7 @@ double cz_staged_stroke(const CzStaged *staged) {
 
 /* Strokes of a curve's breakpoints and of both its ends, each once, rising. */
 static int bends_of(const CzBreakpoints *breakpoints, double stroke,
-                    double at[CZ_MOST_STAGED_BREAKPOINTS]) {
+                    double at[CZ_MAX_STAGED_BREAKPOINTS]) {
     int n = 0;
     at[n++] = 0.0;
     at[n++] = stroke;
@@ -58,14 +58,14 @@ static int bends_of(const CzBreakpoints *breakpoints, double stroke,
     return n;
 }
 
-int cz_staged_breakpoint_strokes(const CzStaged *staged, double at[CZ_MOST_STAGED_BREAKPOINTS]) {
+int cz_staged_breakpoint_strokes(const CzStaged *staged, double at[CZ_MAX_STAGED_BREAKPOINTS]) {
     CzBreakpoints breakpoints;
     cz_staged_breakpoints(staged, &breakpoints);
     return bends_of(&breakpoints, cz_staged_stroke(staged), at);
 }
 
 double cz_staged_energy(const CzStaged *staged) {
-    double at[CZ_MOST_STAGED_BREAKPOINTS], energy = 0.0;
+    double at[CZ_MAX_STAGED_BREAKPOINTS], energy = 0.0;
     CzBreakpoints breakpoints;
     cz_staged_breakpoints(staged, &breakpoints);
     const int n = bends_of(&breakpoints, cz_staged_stroke(staged), at);
@@ -81,9 +81,9 @@ double cz_staged_energy(const CzStaged *staged) {
 /* Values of the fixed part and of every phi at the breakpoints. */
 typedef struct Terms {
     int n_bend, n_term;
-    double at[CZ_MOST_STAGED_BREAKPOINTS];
-    double fixed[CZ_MOST_STAGED_BREAKPOINTS];
-    double phi[MOST_TERMS][CZ_MOST_STAGED_BREAKPOINTS];
+    double at[CZ_MAX_STAGED_BREAKPOINTS];
+    double fixed[CZ_MAX_STAGED_BREAKPOINTS];
+    double phi[MAX_TERMS][CZ_MAX_STAGED_BREAKPOINTS];
 } Terms;
 
 static void put_values(const Terms *terms, const CzBreakpoints *breakpoints, double *value) {
@@ -136,8 +136,8 @@ static double product_with(const Terms *terms, const CzBranchSums *sums, const d
 /* Equations for the forces and the multiplier of the condition. */
 typedef struct Equations {
     int n;
-    double a[MOST_TERMS + 1][MOST_TERMS + 1];
-    double x[MOST_TERMS + 1]; /* right-hand side, then the solution */
+    double a[MAX_TERMS + 1][MAX_TERMS + 1];
+    double x[MAX_TERMS + 1]; /* right-hand side, then the solution */
 } Equations;
 
 static void swap(double *a, double *b) {
@@ -176,7 +176,7 @@ static bool eliminate(Equations *equations) {
 /* Stores the solution in the stages and returns the integral of the squared difference. */
 static double store_forces(CzStaged *staged, const Terms *terms, const CzBranchSums *sums,
                            const double *force) {
-    double value[CZ_MOST_STAGED_BREAKPOINTS];
+    double value[CZ_MAX_STAGED_BREAKPOINTS];
     for (int k = 0; k < terms->n_bend; k++)
         value[k] = terms->fixed[k];
     for (int i = 0; i < terms->n_term; i++) {
@@ -200,15 +200,15 @@ static double store_forces(CzStaged *staged, const Terms *terms, const CzBranchS
  * multiplier m = A c + l p - b is negative (Karush, Kuhn and Tucker: m >= 0). */
 typedef struct Problem {
     int n;
-    bool has_energy, is_held[MOST_TERMS];
-    double a[MOST_TERMS][MOST_TERMS], b[MOST_TERMS], p[MOST_TERMS];
+    bool has_energy, is_held[MAX_TERMS];
+    double a[MAX_TERMS][MAX_TERMS], b[MAX_TERMS], p[MAX_TERMS];
     double energy, least;
-    double force[MOST_TERMS], multiplier; /* the solution, and l */
+    double force[MAX_TERMS], multiplier; /* the solution, and l */
 } Problem;
 
 /* Solves for the forces that are not held at the bound; false when there is no single solution. */
 static bool solve_free(Problem *problem) {
-    int index[MOST_TERMS], n = 0;
+    int index[MAX_TERMS], n = 0;
     Equations equations;
     double energy = problem->energy;
     for (int i = 0; i < problem->n; i++) {
@@ -279,8 +279,8 @@ static bool solve_bounded(Problem *problem) {
 
 double cz_staged_solve(CzStaged *staged, const CzBranch *branch, double energy) {
     Terms terms;
-    CzBranchSums sums[CZ_MOST_STAGED_BREAKPOINTS];
-    double one[CZ_MOST_STAGED_BREAKPOINTS];
+    CzBranchSums sums[CZ_MAX_STAGED_BREAKPOINTS];
+    double one[CZ_MAX_STAGED_BREAKPOINTS];
     make_terms(staged, &terms);
     for (int i = 0; i < terms.n_bend; i++) {
         sums[i] = cz_branch_sums(branch, terms.at[i]);
@@ -288,7 +288,7 @@ double cz_staged_solve(CzStaged *staged, const CzBranch *branch, double energy) 
     }
     const int n = terms.n_term;
     Problem problem = {.n = n, .has_energy = !isnan(energy)};
-    problem.least = LEAST_FORCE * cz_branch_mean(branch, 0.0, terms.at[terms.n_bend - 1]);
+    problem.least = MIN_FORCE * cz_branch_mean(branch, 0.0, terms.at[terms.n_bend - 1]);
     for (int i = 0; i < n; i++) {
         for (int k = 0; k < n; k++)
             problem.a[i][k] = product(&terms, terms.phi[i], terms.phi[k]);

@@ -43,8 +43,8 @@ double cz_staged_stroke(const CzStaged *staged);
 double cz_staged_energy(const CzStaged *staged);
 
 /* Strokes of the curve's breakpoints, from 0 to its end, rising; returns how many. */
-enum { CZ_MOST_STAGED_BREAKPOINTS = 2 * CZ_MAX_STAGES + 4 };
-int cz_staged_breakpoint_strokes(const CzStaged *staged, double at[CZ_MOST_STAGED_BREAKPOINTS]);
+enum { CZ_MAX_STAGED_BREAKPOINTS = 2 * CZ_MAX_STAGES + 4 };
+int cz_staged_breakpoint_strokes(const CzStaged *staged, double at[CZ_MAX_STAGED_BREAKPOINTS]);
 
 /* Finds the forces for given strokes, none below a thousandth of the mean force; without the
  * condition when `energy` is NaN. Returns the integral of the squared difference, INFINITY when no

@@ -310,8 +310,8 @@ static bool allocate(CzSolver *solver, const double *state) {
 /* Whether there is enough memory for SUNDIALS: where a request fails it may end the program without
  * a report. */
 static bool has_room(size_t n_unknown) {
-    enum { MOST_VECTORS = 40, MOST_ELSE = 1 << 18 /* [byte] */ };
-    void *room = malloc(MOST_VECTORS * n_unknown * sizeof(double) + MOST_ELSE);
+    enum { MAX_VECTORS = 40, MAX_OTHER = 1 << 18 /* [byte] */ };
+    void *room = malloc(MAX_VECTORS * n_unknown * sizeof(double) + MAX_OTHER);
     free(room);
     return room != NULL;
 }

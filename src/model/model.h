@@ -11,7 +11,7 @@
 
 /* One car of the scenario, along +x. */
 typedef struct CzCar {
-    char name[CZ_NAME_ROOM];
+    char name[CZ_NAME_SIZE];
     int vehicle; /* index into the problem's vehicle array */
     int train;   /* 0: behind, 1: ahead */
     CzVehicleModel model;
@@ -31,7 +31,7 @@ struct CzModel {
     CzCar *car;
     int colliding; /* interface between the two trains */
     int perturbed; /* inner interface that the scenario perturbs; -1 for none */
-    char (*interface_name)[CZ_INTERFACE_ROOM]; /* (n_car - 1) */
+    char (*interface_name)[CZ_INTERFACE_SIZE]; /* (n_car - 1) */
     const CzSimulation *simulation;
     const CzTrackModes *track; /* NULL on a rigid track, and without wheels */
     double friction;           /* peak wheel-rail friction of the scenario */

@@ -17,12 +17,12 @@ enum { N_BELOW = 200, N_BEYOND = 20, N_SAMPLE = N_BELOW + N_BEYOND };
 #define LOG_13 2.564949357461537
 #define FIRST_DAMPING 0.1 /* damping ratio of the first poles (ours) */
 
-enum { FEWEST_PAIRS = 8, MOST_PAIRS = 16, N_ITERATION = 8, MOST_REPAIRS = 8 }; /* (ours) */
-_Static_assert(CZ_MOST_PAIR_MODES >= 2 * MOST_PAIRS + MOST_REPAIRS, "every pole may be real");
+enum { MIN_PAIRS = 8, MAX_PAIRS = 16, N_ITERATION = 8, MAX_REPAIRS = 8 }; /* (ours) */
+_Static_assert(CZ_MAX_PAIR_MODES >= 2 * MAX_PAIRS + MAX_REPAIRS, "every pole may be real");
 
-#define LARGEST_ERROR 3e-3  /* of the largest receptance, at the samples (ours) */
-#define NEARLY_REAL 1e-9    /* largest imaginary part of a real root, as a share of its size */
-#define LEAST_DAMPING 1e-12 /* smallest damping ratio of a mode that counts as damped */
+#define LARGEST_ERROR 3e-3 /* of the largest receptance, at the samples (ours) */
+#define NEARLY_REAL 1e-9   /* largest imaginary part of a real root, as a share of its size */
+#define MIN_DAMPING 1e-12  /* smallest damping ratio of a mode that counts as damped */
 
 /* Frequencies on the imaginary axis at which the fit is tested for passivity [rad/s] (ours). */
 #define AXIS_FROM 1.0
@@ -63,7 +63,7 @@ bool cz_track_spectrum(const CzTrackModes *modes, double axle_spacing, CzArena *
         for (int i = 0; i < CZ_TRACK_WIDTH; i++) {
             const CzTrackGroup *group = &modes->group[k];
             const CzComplex lambda = group->lambda[i];
-            if (!(-lambda.re > LEAST_DAMPING * cz_complex_size(lambda)))
+            if (!(-lambda.re > MIN_DAMPING * cz_complex_size(lambda)))
                 continue;
             const int n = spectrum->n++;
             spectrum->lambda[n] = lambda;
@@ -116,8 +116,8 @@ typedef struct Samples {
  * residue, for a real pole one. */
 typedef struct Poles {
     int n_pole, n_number;
-    CzComplex pole[2 * MOST_PAIRS];
-    double number[2 * MOST_PAIRS];
+    CzComplex pole[2 * MAX_PAIRS];
+    double number[2 * MAX_PAIRS];
 } Poles;
 
 static bool is_real(CzComplex pole) {
@@ -167,7 +167,7 @@ static int basis_at(CzComplex pole, CzComplex s, CzComplex basis[2]) {
 }
 
 /* Rows of the least squares: real and imaginary parts of all samples. */
-enum { N_ROW = 2 * N_SAMPLE, MOST_COLUMNS = 4 * MOST_PAIRS };
+enum { N_ROW = 2 * N_SAMPLE, MAX_COLUMNS = 4 * MAX_PAIRS };
 
 /* Writes the columns of the basis, each times a factor per sample, to `a`. */
 static void put_basis(const Samples *samples, const Poles *poles, bool times_value, double *a) {
@@ -234,7 +234,7 @@ static CzComplex slope_of_sigma(const void *function, CzComplex s) {
 /* The zeros of sigma, mirrored to the stable side. The starting values are near the poles, and no
  * two of them are conjugate, because two real roots could not separate then. */
 static void move_poles(Poles *poles) {
-    CzComplex root[2 * MOST_PAIRS];
+    CzComplex root[2 * MAX_PAIRS];
     int n = 0;
     for (int i = 0; i < poles->n_pole; i++) {
         const CzComplex pole = poles->pole[i];
@@ -308,7 +308,7 @@ static Lead largest_lead(const struct CzPairModes *modes) {
 /* Adds real modes, each passive by itself, until the fit is passive: a / (s + w) has the imaginary
  * part -a / (2 w) at w. */
 static bool make_passive(struct CzPairModes *modes) {
-    for (int i = 0; i < MOST_REPAIRS; i++) {
+    for (int i = 0; i < MAX_REPAIRS; i++) {
         const Lead lead = largest_lead(modes);
         if (lead.size == 0.0)
             return true;
@@ -360,7 +360,7 @@ static bool find_storage(struct CzPairModes *modes, CzArena *arena, CzArena *scr
 
 /* Fits one motion with the fewest pairs that are accurate enough. */
 static bool fit_motion(const Samples *samples, double cut, double *a, struct CzPairModes *modes) {
-    for (int n_pair = FEWEST_PAIRS; n_pair <= MOST_PAIRS; n_pair += 2) {
+    for (int n_pair = MIN_PAIRS; n_pair <= MAX_PAIRS; n_pair += 2) {
         Poles poles = first_poles(n_pair, cut);
         bool is_found = true;
         for (int i = 0; i < N_ITERATION && is_found; i++)
@@ -378,7 +378,7 @@ static CzStatus fit(const CzTrackModes *modes, CzArena *arena, CzArena *scratch,
                     CzReceptance *receptance, CzError *error) {
     CzTrackSpectrum spectrum;
     Samples *samples = cz_arena_allocate(scratch, 1, sizeof *samples);
-    double *a = cz_arena_allocate(scratch, (size_t)N_ROW * MOST_COLUMNS, sizeof *a);
+    double *a = cz_arena_allocate(scratch, (size_t)N_ROW * MAX_COLUMNS, sizeof *a);
     if (!cz_track_spectrum(modes, receptance->axle_spacing, scratch, &spectrum) ||
         samples == NULL || a == NULL)
         return cz_no_memory(error, "the track's receptance");

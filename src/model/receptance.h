@@ -37,7 +37,7 @@ bool cz_track_spectrum(const CzTrackModes *modes, double axle_spacing, CzArena *
  * flexibility [m/N]. */
 CzComplex cz_track_receptance(const CzTrackSpectrum *spectrum, CzPairMotion motion, CzComplex s);
 
-enum { CZ_MOST_PAIR_MODES = 40 };
+enum { CZ_MAX_PAIR_MODES = 40 };
 
 /* deflection = real part of g y, y' = lambda y + g force. One of a pair is stored; a real lambda
  * has a g that is real or imaginary. */
@@ -50,7 +50,7 @@ typedef struct CzReceptance {
     double axle_spacing; /* of the bogie [m] */
     struct CzPairModes {
         int n;
-        CzPairMode mode[CZ_MOST_PAIR_MODES];
+        CzPairMode mode[CZ_MAX_PAIR_MODES];
         double error;    /* largest over the samples, relative to the largest receptance */
         double *storage; /* H: x' H x of the real and imaginary parts of the modes' y in turn is the
                             energy per wheel that they can still return (2 n x 2 n) */

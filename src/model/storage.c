@@ -19,8 +19,8 @@
 
 #include "base/least_squares.h"
 
-enum { MOST_DOUBLINGS = 24 }; /* 16 million steps (ours) */
-#define LAST_CHANGE 1e-6      /* of the largest entry of H (ours) */
+enum { MAX_DOUBLINGS = 24 }; /* 16 million steps (ours) */
+#define LAST_CHANGE 1e-6     /* of the largest entry of H (ours) */
 
 /* Square matrices of the same order, stored by columns as cz_least_squares requires. */
 typedef struct Doubling {
@@ -121,7 +121,7 @@ bool cz_available_storage(int n, const double *a, const double *b, const double 
     if (!start(&d, a, b, c))
         return false;
     double change = 1.0;
-    for (int i = 0; i < MOST_DOUBLINGS && change > LAST_CHANGE; i++)
+    for (int i = 0; i < MAX_DOUBLINGS && change > LAST_CHANGE; i++)
         change = double_once(&d);
     memcpy(h, d.h, size * sizeof *h);
     return isfinite(change);

@@ -9,7 +9,7 @@
 /* Largest number of reported sets, largest ratio of their objective to the best one when that
  * exceeds a tolerance, and smallest distance between sets as a root mean square share of the ranges
  * (all ours). */
-enum { MOST = 5 };
+enum { MAX_ALTERNATIVES = 5 };
 static const double about_as_well = 1.2;
 static const double apart = 0.1;
 
@@ -45,14 +45,15 @@ CzStatus cz_alternatives_find(const CzSubspace *subspace, long best, CzOutcome *
     const int n = search->function->n_variable;
     if (best < 0 || n == 0)
         return CZ_OK;
-    double *chosen = cz_outcome_numbers(outcome, (size_t)((MOST + 2) * n));
-    outcome->alternative = cz_outcome_numbers(outcome, (size_t)(MOST * subspace->n_all));
-    outcome->alternative_objective = cz_outcome_numbers(outcome, MOST);
+    double *chosen = cz_outcome_numbers(outcome, (size_t)((MAX_ALTERNATIVES + 2) * n));
+    outcome->alternative =
+        cz_outcome_numbers(outcome, (size_t)(MAX_ALTERNATIVES * subspace->n_all));
+    outcome->alternative_objective = cz_outcome_numbers(outcome, MAX_ALTERNATIVES);
     if (chosen == NULL || outcome->alternative == NULL || outcome->alternative_objective == NULL)
         return cz_no_memory(error, "further parameter sets");
-    double *u = chosen + (MOST + 1) * n;
+    double *u = chosen + (MAX_ALTERNATIVES + 1) * n;
     cz_search_scale(search, cz_search_x(search, best), chosen);
-    for (int i = 0; i < MOST; i++) {
+    for (int i = 0; i < MAX_ALTERNATIVES; i++) {
         const long record = next_apart(search, best, i + 1, chosen, u);
         if (record < 0)
             break;

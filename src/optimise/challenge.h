@@ -32,7 +32,7 @@ void cz_challenge_changes(const CzChallenge *challenge, int point, CzCaseChange 
 /* Name of a weak point's scenario in a file, such as "25-km-h-challenge-1", unlike those of the
  * problem. */
 static inline void cz_weak_point_name(const CzChallenge *challenge, int weak,
-                                      char name[CZ_NAME_ROOM]) {
+                                      char name[CZ_NAME_SIZE]) {
     int scenario = 0;
     while (challenge->scenario[scenario] != challenge->weak[weak].scenario)
         scenario++;

@@ -23,7 +23,7 @@
 #include "statistics/sobol.h"
 
 enum {
-    MOST_ADVERSARIES = 16,
+    MAX_ADVERSARIES = 16,
     CORNER_CHECKS = 8, /* most checks whose corners are tried */
     CORNER_ROUNDS = 2, /* the second one with the trends of the first */
     RUNS_PER_DRAW = 6  /* of an adversary, and as many more */
@@ -83,7 +83,7 @@ static CzStatus spread(CzChallenge *challenge, int n, CzError *error) {
     if (u == NULL)
         return cz_no_memory(error, "the points of a challenge");
     for (int d = 0; d < challenge->n_draw; d++) {
-        if (challenge->n_draw <= CZ_SOBOL_MOST_DRAWS)
+        if (challenge->n_draw <= CZ_SOBOL_MAX_DRAWS)
             cz_sobol_draw((uint64_t)challenge->seed, d, all, u);
         else
             cz_latin_draw((uint64_t)challenge->seed + (uint64_t)before, d, all, u);
@@ -375,13 +375,13 @@ static CzStatus search_global(CzChallenge *challenge, CzError *error) {
  * next checks in turn, and other first steps. */
 static CzStatus search_local(CzChallenge *challenge, int round, CzError *error) {
     static const double first_steps[] = {0.2, 0.05, 0.4};
-    int check[MOST_ADVERSARIES];
-    CzAdversary adversary[MOST_ADVERSARIES];
+    int check[MAX_ADVERSARIES];
+    CzAdversary adversary[MAX_ADVERSARIES];
     const int budget = (left_of(challenge) + 1) / 2;
     const int affords = budget / (RUNS_PER_DRAW * (challenge->n_draw + 1));
-    const int most = affords < 1 ? 1 : affords > MOST_ADVERSARIES ? MOST_ADVERSARIES : affords;
+    const int most = affords < 1 ? 1 : affords > MAX_ADVERSARIES ? MAX_ADVERSARIES : affords;
     int n_ranked;
-    CZ_TRY(choose_checks(challenge, MOST_ADVERSARIES, &n_ranked, check, error));
+    CZ_TRY(choose_checks(challenge, MAX_ADVERSARIES, &n_ranked, check, error));
     const int n = most < n_ranked ? most : n_ranked;
     for (int a = 0; a < n; a++) {
         const int own = check[(round * n + a) % n_ranked];
@@ -396,7 +396,7 @@ static CzStatus search_local(CzChallenge *challenge, int round, CzError *error) 
 }
 
 CzStatus cz_challenge_search(CzChallenge *challenge, CzError *error) {
-    int check[MOST_ADVERSARIES];
+    int check[MAX_ADVERSARIES];
     CZ_TRY(spread(challenge, limited(challenge, spread_share), error));
     const int share = limited(challenge, corner_share);
     const int n_corner = share < CORNER_CHECKS ? share : CORNER_CHECKS;

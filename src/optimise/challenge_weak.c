@@ -13,9 +13,9 @@
 #include "optimise/challenge.h"
 
 enum {
-    MOST_TRIES = 4,    /* rounds of full runs */
-    MOST_OF_CHECK = 2, /* points for one check */
-    MOST_PASSING = 3   /* points that are listed where nothing fails */
+    MAX_TRIES = 4,    /* rounds of full runs */
+    MAX_OF_CHECK = 2, /* points for one check */
+    MAX_PASSING = 3   /* points that are listed where nothing fails */
 };
 
 /* Root mean square distances of scaled values: of another region, and of the same point. */
@@ -117,7 +117,7 @@ static void choose(Finder *finder, int class, bool first_pass, int most) {
     for (int i = 0; i < finder->n_pair && finder->n_chosen < most; i++) {
         const Pair *pair = &finder->pair[i];
         if (pair->class > class || finder->is_tried[pair->point] ||
-            n_of_check(finder, pair) >= MOST_OF_CHECK || is_covered(finder, pair, first_pass))
+            n_of_check(finder, pair) >= MAX_OF_CHECK || is_covered(finder, pair, first_pass))
             continue;
         finder->chosen[finder->n_chosen++] = *pair;
     }
@@ -278,7 +278,7 @@ static CzStatus find(Finder *finder, CzError *error) {
     CzChallenge *challenge = finder->challenge;
     const int most = challenge->parts->options.most_weak;
     list_pairs(finder);
-    for (int round = 0; round < MOST_TRIES; round++) {
+    for (int round = 0; round < MAX_TRIES; round++) {
         const int first = finder->n_chosen;
         choose(finder, 2, true, most);
         choose(finder, 2, false, most);
@@ -287,7 +287,7 @@ static CzStatus find(Finder *finder, CzError *error) {
         CZ_TRY(confirm(finder, first, false, error));
     }
     if (!challenge->is_broken) {
-        choose(finder, 3, true, most < MOST_PASSING ? most : MOST_PASSING);
+        choose(finder, 3, true, most < MAX_PASSING ? most : MAX_PASSING);
         CZ_TRY(confirm(finder, 0, true, error));
     }
     order(challenge);

@@ -164,8 +164,8 @@ CzStatus cz_combinations(CzEvaluator *evaluator, const CzOptimiseOptions *option
                          CzCombinations *combinations, CzError *error) {
     const int n = cz_evaluator_n_combination(evaluator);
     *combinations = (CzCombinations){0};
-    combinations->subspace = cz_arena_allocate(
-        &combinations->arena, (size_t)n + 1 + CZ_MOST_FURTHER, sizeof *combinations->subspace);
+    combinations->subspace = cz_arena_allocate(&combinations->arena, (size_t)n + 1 + CZ_MAX_FURTHER,
+                                               sizeof *combinations->subspace);
     if (combinations->subspace == NULL)
         return cz_no_memory(error, "the search");
     CZ_TRY(cz_replay_begin(&combinations->replay, evaluator, options->journal, error));

@@ -22,12 +22,12 @@ CZ_MUST_CHECK CzStatus cz_combinations(CzEvaluator *evaluator, const CzOptimiseO
                                        CzCombinations *combinations, CzError *error);
 
 enum {
-    CZ_MOST_FURTHER = 1,
+    CZ_MAX_FURTHER = 1,
     CZ_FEWEST_EVALUATIONS = 12 /* for a further search (ours) */
 };
 
 /* Searches once more with the choices of a design (n_variable), from it, with at most this many
- * evaluations; no more than CZ_MOST_FURTHER times. `required` is borrowed until the end. Statuses
+ * evaluations; no more than CZ_MAX_FURTHER times. `required` is borrowed until the end. Statuses
  * as above. */
 CZ_MUST_CHECK CzStatus cz_combinations_go_on(CzCombinations *combinations, const double *x,
                                              long evaluations, const CzRequired *required,

@@ -14,10 +14,10 @@ typedef struct CzCorridorParts {
     CzStudy study;          /* for the workers of the executor, if any */
     CzEvaluator *evaluator; /* of the design as written */
     CzPlacedDevice device;
-    int n_stage_of_piece[CZ_MOST_PIECES]; /* stage that a piece is of */
-    CzStage piece[CZ_MOST_PIECES];        /* nominal */
-    CzProblem *divided;                   /* the problem with the pieces as stages */
-    CzCases with_scatter, bare;           /* draws of scatter, if any, then of the pieces */
+    int n_stage_of_piece[CZ_MAX_PIECES]; /* stage that a piece is of */
+    CzStage piece[CZ_MAX_PIECES];        /* nominal */
+    CzProblem *divided;                  /* the problem with the pieces as stages */
+    CzCases with_scatter, bare;          /* draws of scatter, if any, then of the pieces */
     double *u; /* quasi-random curves, within 0..1 (n_random x n_factor) */
 } CzCorridorParts;
 

@@ -9,7 +9,7 @@
 #include "optimise/corridor.h"
 #include "optimise/nlopt_adapter.h"
 
-enum { MOST_SEARCHES = 4 };
+enum { MAX_SEARCHES = 4 };
 
 /* One search from one curve, with curves of its own. */
 typedef struct Adversary {
@@ -43,12 +43,12 @@ static CzStatus evaluate(void *data, int n_point, const double *factor, double *
 
 /* Bounds of the factors. */
 typedef struct Bounds {
-    double low[CZ_MOST_FACTORS], high[CZ_MOST_FACTORS], step[CZ_MOST_FACTORS];
+    double low[CZ_MAX_FACTORS], high[CZ_MAX_FACTORS], step[CZ_MAX_FACTORS];
 } Bounds;
 
 static CzStatus run_search(Adversary *own, const Bounds *bounds, CzError *error) {
     const int n = cz_corridor_n_factor(own->corridor);
-    double u[CZ_MOST_FACTORS];
+    double u[CZ_MAX_FACTORS];
     const CzFunction function = {.n_variable = n,
                                  .min = bounds->low,
                                  .max = bounds->high,
@@ -79,7 +79,7 @@ static CzStatus run_search(Adversary *own, const Bounds *bounds, CzError *error)
 /* Searches side by side. */
 typedef struct Round {
     Bounds bounds;
-    Adversary adversary[MOST_SEARCHES];
+    Adversary adversary[MAX_SEARCHES];
 } Round;
 
 static CzStatus run_task(int index, void *data, CzError *error) {

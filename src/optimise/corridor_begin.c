@@ -53,7 +53,7 @@ static CzStatus draw_numbers(CzCorridor *corridor, CzError *error) {
                              value, error));
     for (int i = 0; i < n_factor; i++) {
         const int dimension = corridor->n_draw + i;
-        if (corridor->n_draw + n_factor <= CZ_SOBOL_MOST_DRAWS)
+        if (corridor->n_draw + n_factor <= CZ_SOBOL_MAX_DRAWS)
             cz_sobol_draw((uint64_t)corridor->seed, dimension, n, u);
         else
             cz_latin_draw((uint64_t)corridor->seed, dimension, n, u);

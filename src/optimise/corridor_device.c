@@ -82,7 +82,7 @@ static void cut_stages(CzCorridor *corridor) {
 static const char *name_end(const CzProblem *problem, const CzEnd *end, CzArena *arena) {
     int n_vehicle;
     const CzVehicle *vehicles = cz_problem_vehicles(problem, &n_vehicle);
-    char name[CZ_NAME_ROOM + 8] = "";
+    char name[CZ_NAME_SIZE + 8] = "";
     for (int v = 0; v < n_vehicle; v++)
         if (end == &vehicles[v].front || end == &vehicles[v].rear)
             snprintf(name, sizeof name, "%s %s", vehicles[v].name,
@@ -149,7 +149,7 @@ int cz_corridor_n_draw(const CzCorridor *corridor) {
 /* Fills a draw that sets one number of the device; `piece` -1: beside its stages. */
 static bool set_draw(const CzCorridor *corridor, int piece, const char *key, CzDraw *draw) {
     CzArena *arena = &corridor->parts->arena;
-    char text[CZ_PATH_ROOM + 40];
+    char text[CZ_PATH_SIZE + 40];
     if (piece < 0)
         snprintf(text, sizeof text, "%s.%s", corridor->path, key);
     else
@@ -178,7 +178,7 @@ bool cz_corridor_list_draws(CzCorridor *corridor, CzDraw *draw) {
  * plateau, and the force of a buffer, which must not fall, to that before. Both stay within the
  * corridor, because the same holds for its edges. */
 static double make_curve(const CzCorridor *corridor, const double *factor,
-                         CzStage piece[CZ_MOST_PIECES]) {
+                         CzStage piece[CZ_MAX_PIECES]) {
     const CzPlacedDevice *device = &corridor->parts->device;
     const bool rises = device->is_loading && strcmp(device->what, "end") != 0;
     double peak = corridor->peak_word != NULL ? corridor->peak * factor[corridor->n_piece] : NAN;
@@ -194,7 +194,7 @@ static double make_curve(const CzCorridor *corridor, const double *factor,
 }
 
 void cz_corridor_set_values(const CzCorridor *corridor, const double *factor, double *value) {
-    CzStage piece[CZ_MOST_PIECES];
+    CzStage piece[CZ_MAX_PIECES];
     const double peak = make_curve(corridor, factor, piece);
     for (int i = 0; i < corridor->n_piece; i++) {
         *value++ = piece[i].stroke;
@@ -208,11 +208,11 @@ void cz_corridor_set_values(const CzCorridor *corridor, const double *factor, do
 
 /* ---- the law ---- */
 
-int cz_corridor_law(const CzCorridor *corridor, const double factor[CZ_MOST_FACTORS],
-                    double stroke[CZ_MOST_CURVE_POINTS], double force[CZ_MOST_CURVE_POINTS]) {
+int cz_corridor_law(const CzCorridor *corridor, const double factor[CZ_MAX_FACTORS],
+                    double stroke[CZ_MAX_CORRIDOR_POINTS], double force[CZ_MAX_CORRIDOR_POINTS]) {
     const CzPlacedDevice *device = &corridor->parts->device;
     const CzTable none = {.given = false};
-    CzStage piece[CZ_MOST_PIECES];
+    CzStage piece[CZ_MAX_PIECES];
     CzBreakpoints law;
     const double peak = make_curve(corridor, factor, piece);
     if (device->is_loading)
@@ -245,10 +245,10 @@ static bool is_on_line(const double *stroke, const double *force, int i) {
 }
 
 void cz_corridor_fill_points(CzCorridor *corridor) {
-    double factor[3][CZ_MOST_FACTORS], stroke[CZ_MOST_CURVE_POINTS];
+    double factor[3][CZ_MAX_FACTORS], stroke[CZ_MAX_CORRIDOR_POINTS];
     double *force[3] = {corridor->lower, corridor->nominal, corridor->upper};
     int n = 0;
-    for (int i = 0; i < CZ_MOST_FACTORS; i++) {
+    for (int i = 0; i < CZ_MAX_FACTORS; i++) {
         factor[0][i] = 1 - corridor->edge[0].width;
         factor[1][i] = 1;
         factor[2][i] = 1 + corridor->edge[1].width;

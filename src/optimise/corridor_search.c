@@ -14,7 +14,7 @@
 #include "optimise/corridor.h"
 
 enum {
-    MOST_PASSED = 64,
+    MAX_PASSED = 64,
     N_SHAPES = 8,
     N_CHALLENGED = 2, /* curves from which the adversary begins */
     N_SEARCHED = 3    /* lower and upper edge together, then each */
@@ -24,8 +24,8 @@ typedef struct Search {
     CzCorridor *corridor;
     int most_steps;
     int n_passed;
-    CzCorridorBox passed[MOST_PASSED]; /* corridors whose curves passed */
-    int n_done;                        /* corridors that were tried, for the progress */
+    CzCorridorBox passed[MAX_PASSED]; /* corridors whose curves passed */
+    int n_done;                       /* corridors that were tried, for the progress */
 } Search;
 
 /* ---- curves that were tried ------------------------------------------------------------------ */
@@ -192,7 +192,7 @@ static CzStatus try_box(Search *search, const CzCorridorBox *box, bool *passes, 
     CZ_TRY(try_shapes(corridor, box, passes, error));
     if (*passes)
         CZ_TRY(try_random(corridor, box, passes, error));
-    if (*passes && search->n_passed < MOST_PASSED)
+    if (*passes && search->n_passed < MAX_PASSED)
         search->passed[search->n_passed++] = *box;
     search->n_done++;
     if (options->progress != NULL)

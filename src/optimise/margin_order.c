@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOST_MARGINS = 8 };
+enum { MAX_MARGINS = 8 };
 
 /* Change of a margin by an increment of a variable below which it does not depend on it (ours). */
 static const double least_change = 1e-4;
@@ -48,7 +48,7 @@ CzStatus cz_margins_order(const CzEvaluator *evaluator, CzOutcome *outcome, CzEr
             outcome->margin[n++] =
                 (CzOrderedMargin){.constraint = j, .margin = best->constraint_check[j].margin};
     qsort(outcome->margin, (size_t)n, sizeof *outcome->margin, compare);
-    outcome->n_margin = n < MOST_MARGINS ? n : MOST_MARGINS;
+    outcome->n_margin = n < MAX_MARGINS ? n : MAX_MARGINS;
     for (int i = 0; i < outcome->n_margin; i++)
         outcome->margin[i].is_capped = is_capped(outcome, outcome->margin[i].constraint);
     return CZ_OK;

@@ -290,9 +290,9 @@ CzStatus cz_optimise_fill_defaults(const CzEvaluator *evaluator, CzOptimiseOptio
         options->seed = written->seed;
     if (options->width == 0)
         options->width = CZ_USUAL_WIDTH;
-    if (options->width < CZ_USUAL_WIDTH || options->width > CZ_MOST_WIDTH)
+    if (options->width < CZ_USUAL_WIDTH || options->width > CZ_MAX_WIDTH)
         return cz_fail(error, CZ_STATUS_INPUT, "the width of %d designs is not from %d to %d",
-                       options->width, CZ_USUAL_WIDTH, CZ_MOST_WIDTH);
+                       options->width, CZ_USUAL_WIDTH, CZ_MAX_WIDTH);
     if (options->evaluations < 1)
         return cz_fail(error, CZ_STATUS_INPUT, "the limit of %ld evaluations is below 1",
                        options->evaluations);

@@ -18,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_LIMITS = 3 }; /* that are relaxed in turn (ours) */
+enum { MAX_LIMITS = 3 }; /* that are relaxed in turn (ours) */
 
 /* The problem with one limit as the objective. */
 typedef struct Relaxed {
@@ -196,7 +196,7 @@ CzStatus cz_relaxation_find(CzEvaluator *evaluator, const CzOptimiseOptions *giv
     if (!create(&relaxed, &arena, evaluator, outcome))
         status = cz_no_memory(error, "the relaxation of a limit");
     int n_limit = 0;
-    for (double above = INFINITY; n_limit < MOST_LIMITS; n_limit++) {
+    for (double above = INFINITY; n_limit < MAX_LIMITS; n_limit++) {
         const int limit = next_limit(evaluator, best, above);
         if (limit < 0)
             break;

@@ -10,8 +10,8 @@ static const double least_gain = 1e-5; /* on the response, of the merit, for a s
 static const double first_weight = 10, most_weight = 1e4; /* price of violations */
 
 enum {
-    MOST_PLANES = 150, /* planes of a response until its best design (ours) */
-    MOST_IDLE = 4      /* designs without the gain that was planned (ours) */
+    MAX_PLANES = 150, /* planes of a response until its best design (ours) */
+    MAX_IDLE = 4      /* designs without the gain that was planned (ours) */
 };
 
 typedef struct Descent {
@@ -108,7 +108,7 @@ static void find_best(Descent *descent) {
     double *box = cz_search_numbers(surface->search, 2 * n);
     memcpy(descent->best, descent->u, n * sizeof *descent->u);
     double reach = descent->radius, merit = merit_at(descent, descent->best);
-    for (int i = 0; box != NULL && i < MOST_PLANES && reach > 1e-4; i++) {
+    for (int i = 0; box != NULL && i < MAX_PLANES && reach > 1e-4; i++) {
         if (!best_near(descent, descent->best, reach, box))
             break;
         const double planned =
@@ -341,7 +341,7 @@ static void descend(Descent *descent) {
             distance(descent->best, descent->u, descent->surface->n) > smallest_radius / 4;
         if (is_worth && !try_best(descent))
             return;
-        if (is_worth && descent->n_idle < MOST_IDLE && descent->radius > smallest_radius)
+        if (is_worth && descent->n_idle < MAX_IDLE && descent->radius > smallest_radius)
             continue;
         descent->n_idle = 0;
         descent->radius *= 0.5;

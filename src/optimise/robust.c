@@ -15,9 +15,9 @@
 #include "optimise/robust_cases.h"
 
 enum {
-    MOST_ROUNDS = 24,
-    FEWEST_EVALUATIONS = 12, /* of a round (ours) */
-    MOST_IDLE = 3            /* rounds without progress at the end (ours) */
+    MAX_ROUNDS = 24,
+    MIN_EVALUATIONS = 12, /* of a round (ours) */
+    MAX_IDLE = 3          /* rounds without progress at the end (ours) */
 };
 
 /* What designs are ranked by. */
@@ -122,7 +122,7 @@ static long evaluations_of(const Robust *robust) {
     const long all = robust->options.evaluations, left = all - robust->n_trial;
     const bool is_first = robust->n_trial == 0;
     const long share = is_first ? all / 3 : robust->n_idle > 0 ? left / 2 : all / 8;
-    const long wanted = share > FEWEST_EVALUATIONS ? share : FEWEST_EVALUATIONS;
+    const long wanted = share > MIN_EVALUATIONS ? share : MIN_EVALUATIONS;
     return wanted < left ? wanted : left;
 }
 
@@ -189,7 +189,7 @@ static CzStatus challenge(const Robust *robust, const CzProblem *designed, CzCha
     CzChallengeOptions options = cz_challenge_options_default();
     take_executor(robust, &options.n_job, &options.executor);
     options.stop = robust->options.stop;
-    options.most_weak = CZ_ROBUST_MOST_NEW;
+    options.most_weak = CZ_ROBUST_MAX_NEW;
     show_phase(robust, "adversary");
     return cz_challenge(designed, NULL, &options, challenge, error);
 }
@@ -355,10 +355,10 @@ static CzStatus run_round(Robust *robust, bool *goes_on, CzError *error) {
     CZ_TRY(begin_round(robust, &round, error));
     CZ_TRY(search(robust, round, error));
     CZ_TRY(end_round(robust, round, &n_new, error));
-    const bool has_more = robust->options.evaluations - robust->n_trial >= FEWEST_EVALUATIONS &&
-                          robust->result->n_round < MOST_ROUNDS;
+    const bool has_more = robust->options.evaluations - robust->n_trial >= MIN_EVALUATIONS &&
+                          robust->result->n_round < MAX_ROUNDS;
     robust->n_idle = n_new > 0 || robust->has_improved ? 0 : robust->n_idle + 1;
-    *goes_on = has_more && !(holds(robust) && n_new == 0) && robust->n_idle < MOST_IDLE &&
+    *goes_on = has_more && !(holds(robust) && n_new == 0) && robust->n_idle < MAX_IDLE &&
                !is_stopped(robust);
     robust->options.seed++; /* a further round begins with other points */
     return CZ_OK;
@@ -393,7 +393,7 @@ static void conclude(const Robust *robust, CzOutcome *outcome) {
     }
     const long left = robust->options.evaluations - robust->n_trial;
     snprintf(outcome->why_stopped, sizeof outcome->why_stopped, "%s%s", why,
-             outcome->status == CZ_OUTCOME_INFEASIBLE && left < FEWEST_EVALUATIONS
+             outcome->status == CZ_OUTCOME_INFEASIBLE && left < MIN_EVALUATIONS
                  ? "; no evaluations are left"
                  : "");
 }

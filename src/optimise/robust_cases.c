@@ -16,7 +16,7 @@ static bool has_case(const CzRobustCases *cases, const char *name) {
 /* Adds a scenario with values of all draws; true when it is a new one. */
 static bool add_case(CzRobustCases *cases, const char *name, int scenario, const CzCases *of,
                      const double *value) {
-    if (cases->n == CZ_ROBUST_MOST_CASES || has_case(cases, name))
+    if (cases->n == CZ_ROBUST_MAX_CASES || has_case(cases, name))
         return false;
     const int n_change = cz_cases_n_change(of);
     char *own_name = cz_arena_copy_text(&cases->arena, name, strlen(name));
@@ -73,7 +73,7 @@ int cz_robust_add_samples(CzRobustCases *cases, const CzSampling *sampling, doub
     bool *is_done =
         cz_arena_allocate(&cases->arena, (size_t)sampling->n_check + 1, sizeof *is_done);
     int n_new = 0;
-    while (is_done != NULL && n_new < CZ_ROBUST_MOST_NEW) {
+    while (is_done != NULL && n_new < CZ_ROBUST_MAX_NEW) {
         int first = -1;
         for (int c = 0; c < sampling->n_check; c++)
             if (!is_done[c] && (first < 0 || urgency_of(&sampling->check[c]) >
@@ -86,7 +86,7 @@ int cz_robust_add_samples(CzRobustCases *cases, const CzSampling *sampling, doub
         const int k = sample_at_statistic(sampling, first);
         if (k < 0)
             continue;
-        char name[CZ_NAME_ROOM];
+        char name[CZ_NAME_SIZE];
         const int scenario = parts->checks.check[first].scenario;
         cz_case_name(&parts->cases, scenario, k, name);
         n_new += add_case(cases, name, parts->cases.scenario[scenario], &parts->cases,
@@ -100,7 +100,7 @@ int cz_robust_add_weak_points(CzRobustCases *cases, const CzChallenge *challenge
     int n_new = 0;
     for (int i = 0; i < challenge->n_weak && challenge->is_broken; i++) {
         const CzWeakPoint *weak = &challenge->weak[i];
-        char name[CZ_NAME_ROOM];
+        char name[CZ_NAME_SIZE];
         if (weak->state == CZ_SAMPLE_DONE && cz_verdict_passes(weak->verdict))
             continue;
         snprintf(name, sizeof name, "weak-point-%d", cases->n + 1);

@@ -11,8 +11,8 @@
 #include "problem/problem.h"
 
 enum {
-    CZ_ROBUST_MOST_CASES = 24, /* of a search (ours) */
-    CZ_ROBUST_MOST_NEW = 4     /* of them after one round (ours) */
+    CZ_ROBUST_MAX_CASES = 24, /* of a search (ours) */
+    CZ_ROBUST_MAX_NEW = 4     /* of them after one round (ours) */
 };
 
 /* A statistic this much below the smallest margin that a search has seen shows that it has not seen
@@ -22,7 +22,7 @@ enum {
 typedef struct CzRobustCases {
     CzArena arena;
     int n;
-    CzCase list[CZ_ROBUST_MOST_CASES]; /* (n) */
+    CzCase list[CZ_ROBUST_MAX_CASES]; /* (n) */
 } CzRobustCases;
 
 /* Violation of the statistic of a check: of its margin, or of a yes or no. */

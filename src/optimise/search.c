@@ -9,7 +9,7 @@
 #include <string.h>
 
 /* A search pauses when this many of its latest designs fail (ours). */
-enum { WINDOW_OF_FAILURES = 50, MOST_FAILURES = 25 };
+enum { WINDOW_OF_FAILURES = 50, MAX_FAILURES = 25 };
 
 void cz_search_init(CzSearch *search, const CzFunction *function,
                     const CzOptimiseOptions *options) {
@@ -252,7 +252,7 @@ static void watch_failures(CzSearch *search) {
     int n_failed = 0;
     for (long i = search->n_record - WINDOW_OF_FAILURES; i < search->n_record; i++)
         n_failed += isnan(search->record[i].objective);
-    if (n_failed <= MOST_FAILURES)
+    if (n_failed <= MAX_FAILURES)
         return;
     snprintf(search->why, sizeof search->why, "%d of the last %d designs failed in simulation",
              n_failed, WINDOW_OF_FAILURES);

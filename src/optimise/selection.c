@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* Fewer scenarios fill the lanes of a batch or two, and are all run (ours). */
-enum { FEWEST_SCENARIOS = 16 };
+enum { MIN_SCENARIOS = 16 };
 
 /* A scenario joins when a margin in it is within this of a violation, or, where the smallest margin
  * counts, of the smallest one (ours). */
@@ -32,7 +32,7 @@ CzStatus cz_selection_begin(CzSelection *selection, const CzEvaluator *evaluator
         selection->works[s] = true;
         n_run += selection->has_run[s];
     }
-    selection->is_on = n_run >= FEWEST_SCENARIOS && cz_evaluator_can_select(evaluator);
+    selection->is_on = n_run >= MIN_SCENARIOS && cz_evaluator_can_select(evaluator);
     for (int j = 0, k = 0; j < selection->n_constraint && selection->is_on; j++) {
         selection->of_constraint[j] = cz_evaluator_constraint_scenario(evaluator, j);
         for (int i = cz_evaluator_n_detail_of(evaluator, j); i > 0; i--)

@@ -11,11 +11,11 @@
 #include <string.h>
 
 enum {
-    BATCH = 6,           /* designs on the increments that are simulated side by side */
-    MOST_OPEN = 12,      /* variables whose rounding is tried both ways: 4096 corners */
-    MOST_WALK = 40,      /* steps of a path on the planes */
-    MOST_IDLE = 2,       /* batches without an improvement before a feasible design is accepted */
-    MOST_IDLE_BROKEN = 8 /* likewise for an infeasible one */
+    BATCH = 6,          /* designs on the increments that are simulated side by side */
+    MAX_OPEN = 12,      /* variables whose rounding is tried both ways: 4096 corners */
+    MAX_WALK = 40,      /* steps of a path on the planes */
+    MAX_IDLE = 2,       /* batches without an improvement before a feasible design is accepted */
+    MAX_IDLE_BROKEN = 8 /* likewise for an infeasible one */
 };
 
 /* Secant step of the slopes that rank designs on the increments: of the order of the increments. */
@@ -123,7 +123,7 @@ static int list_open(const CzSearch *search, const double *x, const double *near
         const double step = search->function->step[i];
         if (!(step > 0) || near[i] == x[i])
             continue;
-        int at = n_open < MOST_OPEN ? n_open++ : MOST_OPEN - 1;
+        int at = n_open < MAX_OPEN ? n_open++ : MAX_OPEN - 1;
         const double distance = fabs(x[i] - near[i]) / step;
         while (at > 0 && distance > fabs(x[open[at - 1]] - near[open[at - 1]]) /
                                         search->function->step[open[at - 1]]) {
@@ -139,7 +139,7 @@ static int list_open(const CzSearch *search, const double *x, const double *near
 static void offer_corners(Shortlist *list, const double *x, double *near, double *corner) {
     const CzSearch *search = list->surface->search;
     const size_t size = (size_t)list->surface->n * sizeof *x;
-    int open[MOST_OPEN];
+    int open[MAX_OPEN];
     cz_search_round(search, x, near);
     const int n_open = list_open(search, x, near, open);
     for (int code = 0; code < 1 << n_open; code++) {
@@ -172,7 +172,7 @@ static void offer_neighbours(Shortlist *list, const double *x, double *other) {
 static void explore(Shortlist *list, const double *from, double *at, double *other) {
     const size_t size = (size_t)list->surface->n * sizeof *at;
     memcpy(at, from, size);
-    for (int step = 0; step < MOST_WALK; step++) {
+    for (int step = 0; step < MAX_WALK; step++) {
         offer_neighbours(list, at, other);
         if (list->n_design == 0 || memcmp(list->design[0].x, at, size) == 0)
             return;
@@ -214,7 +214,7 @@ static void snap(CzSurface *surface, Shortlist *list, long limit, double *scratc
         const long at = search->best_on_grid;
         const bool is_kept = at >= 0 && search->record[at].penalty <= 0;
         n_idle = at >= search->n_record - list->n_design ? 0 : n_idle + 1;
-        if (at < 0 || n_idle > (is_kept ? MOST_IDLE : MOST_IDLE_BROKEN))
+        if (at < 0 || n_idle > (is_kept ? MAX_IDLE : MAX_IDLE_BROKEN))
             return;
         list->n_design = 0;
         explore(list, cz_search_x(search, at), scratch, scratch + n);
@@ -313,7 +313,7 @@ static bool dive_once(const CzSurface *surface, Dive *dive) {
 /* Dives again and again. What a simulated design violates, the next one keeps with a reserve of
  * that size more; where a design passes, the reserves are halved. */
 static void dive(CzSurface *surface, long limit) {
-    enum { MOST_DIVES = 12, MOST_IDLE_DIVES = 5 };
+    enum { MAX_DIVES = 12, MAX_IDLE_DIVES = 5 };
     CzSearch *search = surface->search;
     const size_t n = (size_t)surface->n, m = (size_t)surface->m;
     CzArena arena = {0};
@@ -327,7 +327,7 @@ static void dive(CzSurface *surface, long limit) {
     int n_idle = 0;
     if (arena.out_of_memory)
         cz_search_end_without_memory(search);
-    for (int k = 0; k < MOST_DIVES && !arena.out_of_memory && n_idle < MOST_IDLE_DIVES; k++) {
+    for (int k = 0; k < MAX_DIVES && !arena.out_of_memory && n_idle < MAX_IDLE_DIVES; k++) {
         if (search->n_record >= limit || !dive_once(surface, &dive))
             break;
         const long before = search->best_on_grid;

@@ -25,11 +25,11 @@
 #include <string.h>
 
 enum {
-    MOST_STARTS = 60,
-    MOST_STARTS_OF_FIT = 6,
-    MOST_IDLE_STARTS = 8, /* descents in a row without an improvement (ours) */
-    FEWEST_POINTS = 6,    /* of a screen between two descents */
-    SCREEN_BATCH = 16     /* points of a screen side by side in a search of the usual width */
+    MAX_STARTS = 60,
+    MAX_STARTS_OF_FIT = 6,
+    MAX_IDLE_STARTS = 8, /* descents in a row without an improvement (ours) */
+    MIN_POINTS = 6,      /* of a screen between two descents */
+    SCREEN_BATCH = 16    /* points of a screen side by side in a search of the usual width */
 };
 
 /* Half width of the smaller box around the start, from which every other screening point is
@@ -84,12 +84,12 @@ static long best_apart(const CzSearch *search, int n_chosen, const double *chose
 static CzStatus descend_fit(CzSearch *search, long evaluations, CzError *error) {
     const int n = search->function->n_variable;
     const long limit = search->n_record + evaluations;
-    double *chosen = calloc((size_t)(MOST_STARTS_OF_FIT + 1) * (size_t)n, sizeof *chosen);
+    double *chosen = calloc((size_t)(MAX_STARTS_OF_FIT + 1) * (size_t)n, sizeof *chosen);
     if (chosen == NULL)
         return cz_no_memory(error, "the starting points");
-    double *u = chosen + MOST_STARTS_OF_FIT * n;
+    double *u = chosen + MAX_STARTS_OF_FIT * n;
     CzStatus status = CZ_OK;
-    for (int start = 0; start < MOST_STARTS_OF_FIT && status == CZ_OK; start++) {
+    for (int start = 0; start < MAX_STARTS_OF_FIT && status == CZ_OK; start++) {
         const long record = best_apart(search, start, chosen, start == 0 ? 0 : 0.15, u);
         cz_search_resume(search); /* failures of earlier, distant points do not count here */
         const long left = limit - search->n_record;
@@ -210,7 +210,7 @@ static void visit(Visited *visited, const double *u, int n_variable) {
 /* Points that fill the box before another descent. */
 static long n_screen_of(const CzSearch *search, long left) {
     const int n = search->function->n_variable;
-    const long usual = n + 2 < FEWEST_POINTS  ? FEWEST_POINTS
+    const long usual = n + 2 < MIN_POINTS     ? MIN_POINTS
                        : n + 2 < SCREEN_BATCH ? n + 2
                                               : SCREEN_BATCH;
     /* a descent that follows needs evaluations too */
@@ -299,7 +299,7 @@ static void search_basins(CzSurface *surface, unsigned long seed, Visited *visit
     CzSearch *search = surface->search;
     const long reserve = cz_search_has_steps(search) ? surface->n / 2 + 8 : 0;
     int n_idle = 0;
-    for (int start = 0; start < MOST_STARTS && n_idle < MOST_IDLE_STARTS; start++) {
+    for (int start = 0; start < MAX_STARTS && n_idle < MAX_IDLE_STARTS; start++) {
         const long gain_before = search->last_gain, best_before = search->best;
         const bool has_hopped = start % 2 == 1 && hop(surface, seed, start, reserve);
         const long record = has_hopped ? search->best
@@ -347,10 +347,10 @@ static bool hold_margins(CzSurface *surface) {
 static CzStatus search_by_phases(CzSurface *surface, unsigned long seed, CzError *error) {
     CzSearch *search = surface->search;
     const size_t n = (size_t)surface->n;
-    Visited visited = {.u = cz_search_numbers(search, (2 * MOST_STARTS + 1) * n)};
+    Visited visited = {.u = cz_search_numbers(search, (2 * MAX_STARTS + 1) * n)};
     if (visited.u == NULL)
         return cz_no_memory(error, "the starting points");
-    visited.scratch = visited.u + 2 * MOST_STARTS * n;
+    visited.scratch = visited.u + 2 * MAX_STARTS * n;
     search_basins(surface, seed, &visited);
     CzStatus status = CZ_OK;
     if (search->n_record == 0) /* too few evaluations for planes */

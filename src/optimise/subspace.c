@@ -55,12 +55,12 @@ static CzRecord values_of(const CzSubspace *subspace, const CzBatch *batch, int 
 
 /* How designs are compared: a search continues from the best of all and ends at the best on the
  * increments, or at that with the smallest violation. */
-typedef enum Rank { BEST, BEST_ON_GRID, LEAST_VIOLATED, N_RANK } Rank;
+typedef enum Rank { BEST, BEST_ON_GRID, MIN_VIOLATED, N_RANK } Rank;
 
 static bool is_ranked_before(Rank rank, const CzRecord *one, const CzRecord *other) {
     if (other == NULL || isnan(one->objective))
         return !isnan(one->objective) && (rank != BEST_ON_GRID || one->on_grid);
-    if (rank == LEAST_VIOLATED)
+    if (rank == MIN_VIOLATED)
         return other->violation > 0 && one->violation < other->violation;
     return (rank == BEST || one->on_grid) && cz_record_is_better(one, other);
 }
@@ -69,7 +69,7 @@ static bool is_ranked_before(Rank rank, const CzRecord *one, const CzRecord *oth
 static const CzRecord *first_of_search(const CzSearch *search, Rank rank) {
     const long number = rank == BEST_ON_GRID ? search->best_on_grid : search->best;
     const CzRecord *first = number >= 0 ? &search->record[number] : NULL;
-    for (long i = 0; i < search->n_record && rank == LEAST_VIOLATED; i++)
+    for (long i = 0; i < search->n_record && rank == MIN_VIOLATED; i++)
         if (!search->record[i].is_partial && is_ranked_before(rank, &search->record[i], first))
             first = &search->record[i];
     return first;
@@ -129,7 +129,7 @@ static CzStatus complete_leaders(const CzSubspace *subspace, CzBatch *batch, dou
         if (record[i].is_partial && is_without_objective(subspace, batch, i))
             CZ_TRY(complete(subspace, batch, i, constraint, record, error));
     for (Rank rank = BEST; rank < N_RANK; rank++) {
-        if (rank == LEAST_VIOLATED && !subspace->function.is_minimax)
+        if (rank == MIN_VIOLATED && !subspace->function.is_minimax)
             break;
         for (int leader; (leader = find_leader(subspace, rank, batch->n, record)) >= 0;)
             CZ_TRY(complete(subspace, batch, leader, constraint, record, error));

@@ -270,7 +270,7 @@ typedef struct Step {
     double gain;   /* change of the merit; minus infinity for a design that failed */
 } Step;
 
-enum { MOST_STEPS = 8 }; /* at once, from the width of 64 designs on (ours) */
+enum { MAX_STEPS = 8 }; /* at once, from the width of 64 designs on (ours) */
 
 /* Evaluates scaled designs of n steps (n x n_variable), and moves the base to that with the largest
  * gain. Returns the index of this step, or of the shortest one where none is a gain; -1 when the
@@ -279,7 +279,7 @@ static int try_steps(CzSurface *surface, const char *phase, int n_step, Step *st
                      const double *u) {
     CzSearch *search = surface->search;
     const int n = surface->n;
-    double penalty[MOST_STEPS];
+    double penalty[MAX_STEPS];
     double *change = cz_search_numbers(search, (size_t)n);
     if (change == NULL)
         return -1;
@@ -367,9 +367,9 @@ static bool begin_descent(CzSurface *surface, const char *phase, const double *x
  * when there is none. */
 static int list_steps(const CzSurface *surface, double radius, double smallest, long left,
                       Step *step, double *u) {
-    static const double factor[MOST_STEPS] = {1, 0.5, 2, 0.25, 0.125, 4, 0.0625, 0.03125};
+    static const double factor[MAX_STEPS] = {1, 0.5, 2, 0.25, 0.125, 4, 0.0625, 0.03125};
     const int n = surface->n, asked = surface->search->width / CZ_USUAL_WIDTH;
-    const int most = asked < MOST_STEPS ? asked : MOST_STEPS;
+    const int most = asked < MAX_STEPS ? asked : MAX_STEPS;
     const double here = cz_surface_merit_at(surface, surface->u, NULL);
     int n_step = 0;
     for (int i = 0; i < most && n_step < left; i++) {
@@ -404,8 +404,8 @@ void cz_surface_descend(CzSurface *surface, const char *phase, const double *x, 
                                   : search->function->is_minimax ? 5e-3
                                                                  : 2e-2;
     const double secant = 0.02;
-    Step listed[MOST_STEPS];
-    double *next = cz_search_numbers(search, MOST_STEPS * (size_t)n);
+    Step listed[MAX_STEPS];
+    double *next = cz_search_numbers(search, MAX_STEPS * (size_t)n);
     if (next == NULL || evaluations < n + 2 || !begin_descent(surface, phase, x, secant)) {
         free(next);
         return;

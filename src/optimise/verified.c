@@ -17,8 +17,8 @@
 #include <string.h>
 
 enum {
-    MOST_VERIFIED = 4, /* designs that are verified in all scenarios after the best one (ours) */
-    MOST_TRIED = 24    /* designs that are tried for it (ours) */
+    MAX_VERIFIED = 4, /* designs that are verified in all scenarios after the best one (ours) */
+    MAX_TRIED = 24    /* designs that are tried for it (ours) */
 };
 
 typedef struct Candidate {
@@ -212,7 +212,7 @@ static CzStatus take_verified(Trial *trial, bool *is_verified, CzError *error) {
  * scenarios is not chaotic. */
 static CzStatus screen(Trial *trial, bool *passes, CzError *error) {
     const CzOutcome *outcome = trial->outcome;
-    const char *name[MOST_TRIED + 1];
+    const char *name[MAX_TRIED + 1];
     int n = 0;
     CzVerification *verification = NULL;
     for (int i = 0; i < outcome->n_rejected; i++)
@@ -253,8 +253,8 @@ static CzStatus try_design(Trial *trial, bool *is_verified, CzError *error) {
 
 /* Tries the designs of the list in order. */
 static CzStatus try_list(Trial *trial, bool *is_verified, CzError *error) {
-    for (int i = 0; i < trial->n_listed && !*is_verified && trial->n_verified < MOST_VERIFIED &&
-                    trial->n_tried < MOST_TRIED;
+    for (int i = 0; i < trial->n_listed && !*is_verified && trial->n_verified < MAX_VERIFIED &&
+                    trial->n_tried < MAX_TRIED;
          i++) {
         const Candidate *candidate = &trial->list[i];
         cz_subspace_expand(candidate->subspace,
@@ -294,7 +294,7 @@ static CzStatus search_on(Trial *trial, CzError *error) {
 
 static CzStatus find(Trial *trial, CzError *error) {
     CzOutcome *outcome = trial->outcome;
-    const size_t room = MOST_TRIED + 1, m = (size_t)cz_evaluator_n_constraint(trial->evaluator);
+    const size_t room = MAX_TRIED + 1, m = (size_t)cz_evaluator_n_constraint(trial->evaluator);
     CzArena *arena = &trial->required.arena;
     trial->x = cz_arena_numbers(arena, (size_t)outcome->n_variable);
     trial->required.margin = cz_arena_numbers(arena, m);

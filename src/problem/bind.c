@@ -9,7 +9,7 @@
 #include "problem/strokes.h"
 #include "tree/merge.h"
 
-enum { MOST_KEYS = 64 };
+enum { MAX_KEYS = 64 };
 
 /* The record being read. */
 typedef struct {
@@ -17,8 +17,8 @@ typedef struct {
     const CzNode *node;
     const CzTrail *trail;
     char *memory;
-    const CzNode *seen[MOST_KEYS]; /* key as typed, NULL as long as it has not been found (n_key) */
-    bool meant[MOST_KEYS];         /* a mistyped key was found in its place (n_key) */
+    const CzNode *seen[MAX_KEYS]; /* key as typed, NULL as long as it has not been found (n_key) */
+    bool meant[MAX_KEYS];         /* a mistyped key was found in its place (n_key) */
 } Record;
 
 static void bind_record(CzBinder binder, const CzRecord *of, const CzNode *node,

@@ -129,7 +129,7 @@ static bool set_stages(CzProblem *made, const char *place, int n_stage, const Cz
                        CzSetting *setting) {
     CzReader *reader = &made->reader;
     const CzNodeWriter writer = cz_node_writer(reader, "(stages)");
-    char path[CZ_PATH_ROOM + 8];
+    char path[CZ_PATH_SIZE + 8];
     snprintf(path, sizeof path, "%s.stages", place);
     const char *copy = cz_arena_copy_text(&reader->arena, path, strlen(path));
     CzNode *list =

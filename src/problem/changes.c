@@ -31,11 +31,11 @@ static bool make_put(CzArena *arena, const CzChange *change, const CzNode *place
     return put->value != NULL;
 }
 
-const char *cz_change_path(const char *path, int scenario, char text[CZ_PATH_ROOM]) {
+const char *cz_change_path(const char *path, int scenario, char text[CZ_PATH_SIZE]) {
     static const char own[] = "scenario.";
     if (strncmp(path, own, sizeof own - 1) != 0)
         return path;
-    snprintf(text, CZ_PATH_ROOM, "scenarios[%d].%.*s", scenario, CZ_PATH_ROOM - 32,
+    snprintf(text, CZ_PATH_SIZE, "scenarios[%d].%.*s", scenario, CZ_PATH_SIZE - 32,
              path + sizeof own - 1);
     return text;
 }
@@ -55,7 +55,7 @@ static bool make_settings(CzProblem *made, const CzScenario *scenario, int index
     for (int i = 0; source != NULL && i < scenario->n_changes; i++) {
         const CzChange *change = &scenario->changes[i];
         const CzNode place = {.source = source, .line = i + 1, .column = 1};
-        char text[CZ_PATH_ROOM];
+        char text[CZ_PATH_SIZE];
         const char *path = cz_change_path(change->path, index, text);
         setting[i].place = cz_node_text(&reader->arena, path, &place);
         if (setting[i].place == NULL || !make_put(&reader->arena, change, &place, &setting[i].put))

@@ -12,7 +12,7 @@ CZ_MUST_CHECK CzStatus cz_changes_read(CzProblem *problem, const void **field, C
 
 /* The path of a change as settings take it: `scenario.` at its start becomes that of the scenario,
  * which is written to `text`. */
-const char *cz_change_path(const char *path, int scenario, char text[CZ_PATH_ROOM]);
+const char *cz_change_path(const char *path, int scenario, char text[CZ_PATH_SIZE]);
 
 /* Whether the path is followed when the trains have been written out: all but those of parts. */
 bool cz_change_is_late(const char *path);

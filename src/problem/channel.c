@@ -45,15 +45,15 @@ static const char *word_for(char part, const CzChannelInfo *info, int place, con
 }
 
 const char *cz_channel_name(const CzChannelInfo *info, int place, const char *name,
-                            char text[CZ_CHANNEL_ROOM]) {
+                            char text[CZ_CHANNEL_SIZE]) {
     int n = 0;
     for (const char *at = info->pattern; *at != '\0';) {
         const size_t n_plain = strcspn(at, "{");
-        n += snprintf(text + n, (size_t)(CZ_CHANNEL_ROOM - n), "%.*s", (int)n_plain, at);
+        n += snprintf(text + n, (size_t)(CZ_CHANNEL_SIZE - n), "%.*s", (int)n_plain, at);
         at += n_plain;
         if (*at == '\0')
             break;
-        n += snprintf(text + n, (size_t)(CZ_CHANNEL_ROOM - n), "%s",
+        n += snprintf(text + n, (size_t)(CZ_CHANNEL_SIZE - n), "%s",
                       word_for(at[1], info, place, name));
         at = strchr(at, '}') + 1;
     }
@@ -73,7 +73,7 @@ static bool try_places(Search *search, CzChannel channel, int index, const char 
     const CzChannelInfo *info = &channels[channel];
     for (int k = 0; k < n_place[info->at]; k++) {
         const int place = cz_first_place(info->at, index) + k;
-        char text[CZ_CHANNEL_ROOM];
+        char text[CZ_CHANNEL_SIZE];
         if (strcmp(cz_channel_name(info, place, name, text), search->text) == 0) {
             *search->column = (CzColumn){channel, place};
             return true;
@@ -85,13 +85,13 @@ static bool try_places(Search *search, CzChannel channel, int index, const char 
 }
 
 bool cz_column_find(const char *text, int n_vehicle, const char *const *vehicle, CzColumn *column,
-                    char nearest[CZ_CHANNEL_ROOM]) {
+                    char nearest[CZ_CHANNEL_SIZE]) {
     Search search = {.text = text, .column = column, .suggests = nearest != NULL};
     for (CzChannel channel = 0; channel < CZ_N_CHANNEL; channel++) {
         const CzChannelAt at = channels[channel].at;
         const int n = at == CZ_AT_RUN ? 1 : at == CZ_AT_INTERFACE ? n_vehicle - 1 : n_vehicle;
         for (int i = 0; i < n; i++) {
-            char interface[CZ_INTERFACE_ROOM];
+            char interface[CZ_INTERFACE_SIZE];
             const char *name = at == CZ_AT_RUN ? "" : vehicle[i];
             if (at == CZ_AT_INTERFACE) {
                 snprintf(interface, sizeof interface, "%s-%s", vehicle[i], vehicle[i + 1]);
@@ -102,6 +102,6 @@ bool cz_column_find(const char *text, int n_vehicle, const char *const *vehicle,
         }
     }
     if (nearest != NULL)
-        snprintf(nearest, CZ_CHANNEL_ROOM, "%s", search.suggestion.best);
+        snprintf(nearest, CZ_CHANNEL_SIZE, "%s", search.suggestion.best);
     return false;
 }

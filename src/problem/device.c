@@ -63,7 +63,7 @@ static CzPlacedDevice device_of(const CzEnd *end, const double *field) {
                                 .count = 1,
                                 .n_stage = end->n_stages,
                                 .stage = end->stages,
-                                .most_stages = CZ_MOST_END_STAGES,
+                                .most_stages = CZ_MAX_END_STAGES,
                                 .peak = NAN};
     return (CzPlacedDevice){0};
 }
@@ -95,7 +95,7 @@ static const CzEnd *end_of(const CzVehicle *vehicle, const double *field) {
 static CzStatus describe(const CzProblem *problem, const CzTargets *targets, CzPlacedDevice *device,
                          CzError *error) {
     const CzEnd **place = calloc((size_t)targets->n, sizeof *place);
-    char path[CZ_PATH_ROOM];
+    char path[CZ_PATH_SIZE];
     memcpy(path, device->path, sizeof path);
     if (place == NULL)
         return cz_no_memory(error, "the places of a device");
@@ -146,7 +146,7 @@ enum { N_INSIDE = sizeof inside / sizeof inside[0] };
 /* Finds the forces of a record's stages. Status: CZ_STATUS_INPUT when it has none. */
 static CzStatus find_forces(const CzProblem *problem, const char *path, CzTargets *targets,
                             CzError *error) {
-    char forces[CZ_PATH_ROOM + 40];
+    char forces[CZ_PATH_SIZE + 40];
     snprintf(forces, sizeof forces, "%.270s.stages[*].force_N", path);
     return cz_problem_find_changed(problem, 0, forces, targets, error);
 }
@@ -199,7 +199,7 @@ static CzStatus refuse(const CzProblem *problem, const char *path, int n_found, 
 CzStatus cz_problem_find_device(const CzProblem *problem, const char *name, CzPlacedDevice *device,
                                 CzError *error) {
     const bool is_path = strncmp(name, "trains.", 7) == 0 || strncmp(name, "parts.", 6) == 0;
-    char path[CZ_PATH_ROOM], at[CZ_PATH_ROOM + 24], list[400] = "";
+    char path[CZ_PATH_SIZE], at[CZ_PATH_SIZE + 24], list[400] = "";
     CzTargets found = {0};
     int n_found = 0;
     CzStatus status = CZ_OK;
@@ -213,7 +213,7 @@ CzStatus cz_problem_find_device(const CzProblem *problem, const char *name, CzPl
             continue;
         free(found.target);
         found = here;
-        snprintf(device->path, sizeof device->path, "%.*s", CZ_PATH_ROOM - 1, at);
+        snprintf(device->path, sizeof device->path, "%.*s", CZ_PATH_SIZE - 1, at);
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s%.100s%s",
                  n_found > 0 ? ", " : "", is_path ? path : name, inside[i]);
         if (i == 0)

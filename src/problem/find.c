@@ -146,7 +146,7 @@ CzStatus cz_problem_find(const CzProblem *problem, const char *path, CzTargets *
 
 CzStatus cz_problem_find_changed(const CzProblem *problem, int scenario, const char *path,
                                  CzTargets *targets, CzError *error) {
-    char text[CZ_PATH_ROOM];
+    char text[CZ_PATH_SIZE];
     const bool is_of_scenario = cz_change_path(path, scenario, text) == text;
     if (is_of_scenario && cz_node_find(problem->tree.root, "scenarios") == NULL)
         return CZ_OK; /* the trains as written have no key to be found */

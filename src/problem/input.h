@@ -13,7 +13,7 @@
 
 enum {
     CZ_MAX_STAGES = 8,       /* stages of one curve */
-    CZ_MOST_END_STAGES = 4,  /* of that of an end */
+    CZ_MAX_END_STAGES = 4,   /* of that of an end */
     CZ_MAX_CURVE_POINTS = 64 /* points of one table after reading */
 };
 

@@ -92,7 +92,7 @@ typedef struct CzTarget {
     int match;                /* which match of a [*] this belongs to, from 0 */
     bool may_vary;            /* the key is one of the kinds an optimiser may change */
     bool may_fit;             /* or one that may be fitted to measurements */
-    char place[CZ_PATH_ROOM]; /* path of this match without any *, as in `set:`; the targets
+    char place[CZ_PATH_SIZE]; /* path of this match without any *, as in `set:`; the targets
                         of one match share it */
 } CzTarget;
 
@@ -187,7 +187,7 @@ CZ_MUST_CHECK bool cz_problem_take_targets(CzProblem *made, const CzProblem *pro
 /* A device that a part or a path names, at all its places, which have one curve. Borrowed from the
  * problem. */
 typedef struct CzPlacedDevice {
-    char path[CZ_PATH_ROOM]; /* such as parts.front-zone; a key of the device follows */
+    char path[CZ_PATH_SIZE]; /* such as parts.front-zone; a key of the device follows */
     const char *what;        /* such as "anti-climber" */
     bool is_loading; /* the force of a stage is that at its end, as of buffers and ends; else a
                         plateau */

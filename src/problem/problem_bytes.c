@@ -173,7 +173,7 @@ CzStatus cz_problem_get(CzReading *reading, CzProblemSteps *steps, CzError *erro
     *steps = (CzProblemSteps){0};
     for (int step = cz_get_int(reading); status == CZ_OK && step != END;
          step = status == CZ_OK ? cz_get_int(reading) : END)
-        status = steps->n < CZ_MOST_STEPS && !reading->has_ended
+        status = steps->n < CZ_MAX_STEPS && !reading->has_ended
                      ? get_step(reading, &arena, step, steps, error)
                      : cz_no_memory(error, "a problem");
     cz_arena_free(&arena);

@@ -9,12 +9,12 @@
  * problem that was changed in another way. */
 void cz_problem_put(CzMemoryText *bytes, const CzProblem *problem);
 
-enum { CZ_MOST_STEPS = 4 };
+enum { CZ_MAX_STEPS = 4 };
 
 /* A problem that was read again, and those that it was made from, which it must not outlive. */
 typedef struct CzProblemSteps {
     int n;
-    CzProblem *step[CZ_MOST_STEPS]; /* the last one is the problem (n) */
+    CzProblem *step[CZ_MAX_STEPS]; /* the last one is the problem (n) */
 } CzProblemSteps;
 static inline const CzProblem *cz_problem_of(const CzProblemSteps *steps) {
     return steps->step[steps->n - 1];

@@ -147,7 +147,7 @@ CzStatus cz_problem_read_text(const char *text, size_t n_byte, const char *name,
     const size_t n_mark = cz_source_mark(text, n_byte);
     text += n_mark;
     n_byte -= n_mark;
-    const bool is_small = n_byte <= CZ_MOST_BYTES;
+    const bool is_small = n_byte <= CZ_MAX_BYTES;
     const CzSource *source =
         cz_sources_add(&reader->sources, name, folder, text, is_small ? n_byte : 0);
     const CzNode *top = NULL;

@@ -202,9 +202,9 @@ static void check_bounds(const CzRules *rules, const CzVariable *variable) {
  * have. */
 static bool find_buffers(const CzRules *rules, const char *const *path, CzTargets *targets) {
     static const char inside[] = ".preload_N";
-    char text[CZ_PATH_ROOM + sizeof inside];
+    char text[CZ_PATH_SIZE + sizeof inside];
     CzError error = {0};
-    snprintf(text, sizeof text, "%.*s%s", (int)CZ_PATH_ROOM, *path, inside);
+    snprintf(text, sizeof text, "%.*s%s", (int)CZ_PATH_SIZE, *path, inside);
     const int n_found = find(rules, text, targets, &error);
     for (int i = targets->n - n_found; i < targets->n; i++) {
         CzTarget *found = &targets->target[i];
@@ -223,8 +223,8 @@ static bool find_buffers(const CzRules *rules, const char *const *path, CzTarget
 /* Reads the problem with every choice in turn. */
 static void check_each_choice(const CzRules *rules, const CzVariable *variable,
                               const char *const *path) {
-    char use[CZ_PATH_ROOM + 16];
-    snprintf(use, sizeof use, "%.*s.use", (int)CZ_PATH_ROOM, *path);
+    char use[CZ_PATH_SIZE + 16];
+    snprintf(use, sizeof use, "%.*s.use", (int)CZ_PATH_SIZE, *path);
     const char *const uses[] = {use};
     for (int i = 0; i < variable->choices.n_text; i++) {
         CzProblem *chosen = NULL;

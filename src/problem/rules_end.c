@@ -171,9 +171,9 @@ static void check_structure(const CzRules *rules, const CzVehicle *vehicle, cons
         .stages = end->stages, .n_stages = end->n_stages, .curve = &end->curve};
     if (!is_rigid || vehicle->model == CZ_MODEL_FULL) /* other ends may be rigid */
         check_law(rules, &crushing, end, "an end");
-    if (end->n_stages > CZ_MOST_END_STAGES)
+    if (end->n_stages > CZ_MAX_END_STAGES)
         cz_rule_broken(rules, end->stages, "an end has %d stages; at most %d are allowed",
-                       end->n_stages, (int)CZ_MOST_END_STAGES);
+                       end->n_stages, (int)CZ_MAX_END_STAGES);
     check_forces(rules, &crushing, "a stage of an end needs a force at its end");
     check_zones(rules, end);
     check_unloading(rules, end);

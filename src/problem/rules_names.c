@@ -12,15 +12,15 @@
 /* Names are in paths, columns, files and folders. */
 static void check_name(const CzRules *rules, const char *const *name, const char *what,
                        const char *further) {
-    char fault[CZ_FAULT_ROOM];
+    char fault[CZ_FAULT_SIZE];
     if (*name != NULL && cz_name_fault(*name, further, fault))
         cz_rule_broken(rules, name, "the name of a %s, '%.60s', %s", what, *name, fault);
 }
 
 static void check_label(const CzRules *rules, const char *const *label, const char *what) {
-    if (*label != NULL && strlen(*label) > CZ_MOST_LABEL)
+    if (*label != NULL && strlen(*label) > CZ_MAX_LABEL)
         cz_rule_broken(rules, label, "the name of a %s has more than %d bytes", what,
-                       (int)CZ_MOST_LABEL);
+                       (int)CZ_MAX_LABEL);
 }
 
 /* ---- uniqueness ---- */
@@ -104,7 +104,7 @@ static void add_columns(Names *names, bool of_interface, const char *name,
         const bool fits = of_interface ? info->at == CZ_AT_INTERFACE
                                        : info->at != CZ_AT_INTERFACE && info->at != CZ_AT_RUN;
         for (int place = 0; fits && cz_place_index(info->at, place) == 0; place++) {
-            char text[CZ_CHANNEL_ROOM];
+            char text[CZ_CHANNEL_SIZE];
             cz_channel_name(info, place, name, text);
             const char *kept = cz_arena_copy_text(arena, text, strlen(text));
             const int number = names->index.n_entry;
@@ -125,11 +125,11 @@ static void check_columns(const CzRules *rules) {
     Names names = names_of(rules);
     const CzVehicle *vehicle = rules->problem->vehicle;
     for (int i = 0; i < rules->problem->n_vehicle; i++)
-        if (vehicle[i].name != NULL && strlen(vehicle[i].name) <= CZ_MOST_NAME)
+        if (vehicle[i].name != NULL && strlen(vehicle[i].name) <= CZ_MAX_NAME)
             add_columns(&names, false, vehicle[i].name, &vehicle[i].name);
     for (int i = 0; i + 1 < rules->problem->n_vehicle; i++) {
         const char *behind = vehicle[i].name, *ahead = vehicle[i + 1].name;
-        char text[CZ_INTERFACE_ROOM];
+        char text[CZ_INTERFACE_SIZE];
         if (behind == NULL || ahead == NULL)
             continue;
         snprintf(text, sizeof text, "%.48s-%.48s", behind, ahead);

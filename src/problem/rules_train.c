@@ -323,7 +323,7 @@ static void check_closing(const CzRules *rules, const CzScenario *scenario,
 static void check_interface(const CzRules *rules, const CzScenario *scenario,
                             const CzTrain *const pair[2]) {
     CzSuggestion suggestion = {0};
-    char known[CZ_INTERFACE_ROOM];
+    char known[CZ_INTERFACE_SIZE];
     if (scenario->perturbed_interface == NULL) {
         if (scenario->perturbation != 0 && cz_rule_is_written(rules, &scenario->perturbation))
             cz_rule_broken(rules, &scenario->perturbation,

@@ -10,7 +10,7 @@
 
 #define STROKE_NOISE 0.01 /* of the largest stroke: noise while loading (ours) */
 #define FORCE_NOISE 0.02  /* of the largest force: a smaller one counts as zero (ours) */
-#define MOST_TURNS                                                                                 \
+#define MAX_TURNS                                                                                  \
     3 /* of strokes in some order: a wiggle before the load, and the unloading (ours) */
 #define CONTACT 0.01     /* of the largest force: contact begins there (ours) */
 #define FREE_TRAVEL 0.05 /* of the stroke: more without force is reported (ours) */
@@ -32,7 +32,7 @@ typedef struct Making {
 
 __attribute__((format(printf, 2, 3))) static void note(CzTrace *trace, const char *format, ...) {
     va_list arguments;
-    if (trace->n_note == CZ_TRACE_MOST_NOTES)
+    if (trace->n_note == CZ_TRACE_MAX_NOTES)
         return;
     va_start(arguments, format);
     vsnprintf(trace->note[trace->n_note++], sizeof trace->note[0], format, arguments);
@@ -190,7 +190,7 @@ static bool check_turns(const Making *making) {
             extreme = trace->x[i];
         }
     }
-    if (n_turn <= MOST_TURNS)
+    if (n_turn <= MAX_TURNS)
         return true;
     return refuse(making, first,
                   "the strokes turn %d times, first from %s to %s mm" CZ_HELP

@@ -34,7 +34,7 @@ typedef struct CzTraceShape {
 
 CzTraceShape cz_trace_shape_default(void);
 
-enum { CZ_TRACE_MOST_NOTES = 6 };
+enum { CZ_TRACE_MAX_NOTES = 6 };
 
 typedef struct CzTrace {
     int n;
@@ -43,7 +43,7 @@ typedef struct CzTrace {
     int n_loading; /* points up to the largest stroke, that one included */
     bool unloads;  /* the points after them are an unloading */
     int n_note;    /* corrections, as sentences without a full stop */
-    char note[CZ_TRACE_MOST_NOTES][200];
+    char note[CZ_TRACE_MAX_NOTES][200];
 } CzTrace;
 
 /* Converts the trace's points to a curve in place; `unit` is the SI value of the file's unit of

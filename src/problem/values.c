@@ -44,7 +44,7 @@ static const char *typed_key(const char *origin, const char *stem, size_t n_stem
  * value, without those that use it. */
 static const char *place_of(Lister *lister, const char *origin, const char *typed) {
     static const char before[] = ", part ";
-    char text[2 * CZ_PATH_ROOM];
+    char text[2 * CZ_PATH_SIZE];
     const char *part = strstr(origin, before);
     const size_t n_place = typed != NULL  ? (size_t)(typed - 2 - origin)
                            : part != NULL ? (size_t)(part - origin)
@@ -66,7 +66,7 @@ static void add_value(Lister *lister, const char *path, const CzNode *key, const
     const char *origin = comment_of(key), *name = key->text != NULL ? key->text : "";
     const size_t n_stem = cz_key_stem_length(name);
     const char *typed = typed_key(origin, name, n_stem);
-    char full[CZ_PATH_ROOM] = "";
+    char full[CZ_PATH_SIZE] = "";
     snprintf(full, sizeof full, "%.*s", typed != NULL ? (int)strcspn(typed, ":") : 0,
              typed != NULL ? typed : "");
     const char *unit_key = typed != NULL ? full : name;
@@ -84,7 +84,7 @@ static void add_value(Lister *lister, const char *path, const CzNode *key, const
 
 /* The texts of a list of texts, such as [a, b] or a point of a curve. */
 static void add_list(Lister *lister, const char *path, const CzNode *key, const CzNode *list) {
-    char text[CZ_PATH_ROOM] = "";
+    char text[CZ_PATH_SIZE] = "";
     size_t n = 0;
     for (int i = 0; i < list->n_entry && n < sizeof text; i++)
         n += (size_t)snprintf(text + n, sizeof text - n, "%s%s", i > 0 ? ", " : "",
@@ -104,7 +104,7 @@ static void list_node(Lister *lister, const CzNode *node, const char *path) {
         const CzEntry *entry = &node->entry[i];
         const char *before = path[0] != '\0' ? "." : "";
         const char *name = cz_node_find_text(entry->value, "name");
-        char inside[2 * CZ_PATH_ROOM];
+        char inside[2 * CZ_PATH_SIZE];
         if (entry->key != NULL)
             snprintf(inside, sizeof inside, "%s%s%.*s", path, before,
                      (int)cz_key_stem_length(entry->key->text), entry->key->text);

@@ -71,7 +71,7 @@ static void follow(Search *search, const CzNode *node, const char *path) {
     for (int i = 0; node->kind != CZ_NODE_TEXT && i < node->n_entry; i++) {
         const CzEntry *entry = &node->entry[i];
         const char *name = cz_node_find_text(entry->value, "name");
-        char inside[CZ_PATH_ROOM];
+        char inside[CZ_PATH_SIZE];
         int n;
         if (entry->key != NULL)
             n = snprintf(inside, sizeof inside, "%s.%s", path, entry->key->text);
@@ -97,7 +97,7 @@ CzStatus cz_problem_find_varying(const CzProblem *problem, const bool *is_left_o
                      .status = CZ_OK};
     const CzEntry *trains = cz_node_find(problem->tree.root, "trains");
     for (int i = 0; i < problem->tree.n_part; i++) {
-        char path[CZ_PATH_ROOM];
+        char path[CZ_PATH_SIZE];
         snprintf(path, sizeof path, "parts.%.200s", problem->tree.part[i].name);
         follow(&search, problem->tree.part[i].node, path);
     }

@@ -6,7 +6,7 @@
 
 /* A number as it is written in a file, in the unit of its key. */
 typedef struct CzVaryingNumber {
-    char path[CZ_PATH_ROOM]; /* as `set:` takes it, such as parts.head-tube.stages[0].force_kN */
+    char path[CZ_PATH_SIZE]; /* as `set:` takes it, such as parts.head-tube.stages[0].force_kN */
     double value;
     double min, max; /* range of its key */
     double size;     /* of a change of 100 %: the value, or of a length of 0 one of 100 mm */

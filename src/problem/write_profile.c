@@ -37,11 +37,11 @@ static CzStatus read_view(const char *name, const CzProblemOptions *options, Vie
 
 /* ---- the list ---- */
 
-enum { MOST_PROFILES = 200, LONGEST = 96 };
+enum { MAX_PROFILES = 200, LONGEST = 96 };
 
 typedef struct Names {
     int n;
-    char name[MOST_PROFILES][LONGEST];
+    char name[MAX_PROFILES][LONGEST];
 } Names;
 
 static void keep_name(const char *name, void *data) {
@@ -49,7 +49,7 @@ static void keep_name(const char *name, void *data) {
     for (int i = 0; i < names->n; i++)
         if (strcmp(names->name[i], name) == 0)
             return;
-    if (names->n < MOST_PROFILES)
+    if (names->n < MAX_PROFILES)
         snprintf(names->name[names->n++], LONGEST, "%s", name);
 }
 

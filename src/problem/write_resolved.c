@@ -69,7 +69,7 @@ static const char *text_of(const Writer *writer, const char *const *field, size_
 /* Writes "key: value # origin" for the keys of one value; false when the key is absent. */
 static bool write_value(const Writer *writer, const CzKey *key, const char *field, int indent,
                         const char *dash) {
-    char number[CZ_NUMBER_TEXT], name[CZ_PATH_ROOM];
+    char number[CZ_NUMBER_TEXT], name[CZ_PATH_SIZE];
     const char *value = number;
     const char *suffix = "";
     if (key->kind == CZ_KEY_NUMBER) {
@@ -147,7 +147,7 @@ static bool write_inner_path(char *text, size_t size, const CzRecord *record, si
     for (int i = 0; i < record->n_key; i++) {
         const CzKey *key = &record->key[i];
         const CzRecord *inside = key->child;
-        char rest[CZ_PATH_ROOM];
+        char rest[CZ_PATH_SIZE];
         const size_t at = offset - key->offset;
         if (key->kind == CZ_KEY_NUMBER && offset == key->offset) {
             return (size_t)snprintf(text, size, ".%s", key->stem) < size;
@@ -169,23 +169,23 @@ static bool write_inner_path(char *text, size_t size, const CzRecord *record, si
 
 /* Path of a target in the vehicles. */
 static const char *path_of(const Writer *writer, const CzTarget *target,
-                           char text[2 * CZ_PATH_ROOM]) {
+                           char text[2 * CZ_PATH_SIZE]) {
     const CzInput *input = &writer->problem->input;
-    char inner[CZ_PATH_ROOM] = "";
+    char inner[CZ_PATH_SIZE] = "";
     int train = 0, vehicle = target->vehicle;
     if (vehicle < 0) /* not in a vehicle, so not from a part */
         return target->place;
     while (vehicle >= input->trains[train].n_vehicles)
         vehicle -= input->trains[train++].n_vehicles;
     write_inner_path(inner, sizeof inner, &cz_records[CZ_RECORD_CzVehicle], target->offset);
-    snprintf(text, 2 * CZ_PATH_ROOM, "trains.%.48s.vehicles.%.48s%s%s%.16s",
+    snprintf(text, 2 * CZ_PATH_SIZE, "trains.%.48s.vehicles.%.48s%s%s%.16s",
              input->trains[train].name, writer->problem->vehicle[target->vehicle].name, inner,
              target->suffix[0] != '\0' ? "_" : "", target->suffix);
     return text;
 }
 
 static void write_target(const Writer *writer, const CzTarget *target) {
-    char text[2 * CZ_PATH_ROOM];
+    char text[2 * CZ_PATH_SIZE];
     cz_write_yaml_text(writer->stream, path_of(writer, target, text));
 }
 
@@ -289,7 +289,7 @@ static bool same_part(const CzTarget *a, const CzTarget *b) {
 static void write_places(const Writer *writer, const CzScatter *scatter, const CzTargets *targets,
                          const CzTarget *of, int indent) {
     const char *before = "", *path = scatter->path != NULL ? scatter->path : scatter->paths.text[0];
-    char name[2 * CZ_PATH_ROOM];
+    char name[2 * CZ_PATH_SIZE];
     snprintf(name, sizeof name, "%s%s%.*s", scatter->name != NULL ? scatter->name : path,
              of != NULL ? " " : "", of != NULL ? (int)part_length(of) : 0,
              of != NULL ? of->place + 6 : "");

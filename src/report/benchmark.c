@@ -6,7 +6,7 @@
 #include "report/units.h"
 
 static void put_time(CzReportTable *table, double time) {
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     cz_table_put(table, cz_figure_plain(text, time * CZ_MILLI_PER_UNIT));
 }
 

@@ -25,7 +25,7 @@ bool cz_challenge_has_files(const CzReport *report) {
 static void write_reason(const CzChallenge *challenge, int weak, FILE *stream) {
     char text[CZ_CHALLENGE_SENTENCE];
     cz_challenge_weak_sentence(challenge, weak, text);
-    char name[CZ_NAME_ROOM];
+    char name[CZ_NAME_SIZE];
     cz_weak_point_name(challenge, weak, name);
     fprintf(stream, "#   %s: %s\n", name, text);
 }
@@ -46,7 +46,7 @@ void cz_challenge_write_file(const CzReport *report, bool all, const char *folde
     cz_replay_begin_scenarios(challenge->problem, stream);
     for (int i = first; i < end; i++) {
         const CzWeakPoint *weak = &challenge->weak[i];
-        char name[CZ_NAME_ROOM];
+        char name[CZ_NAME_SIZE];
         if (!is_written(weak))
             continue;
         cz_weak_point_name(challenge, i, name);

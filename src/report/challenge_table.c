@@ -24,7 +24,7 @@ static void add(char text[CZ_CHALLENGE_SENTENCE], const char *format, ...) {
 
 /* A number that a point has, such as "mass +4.7 %" of a factor. */
 static void add_value(char text[CZ_CHALLENGE_SENTENCE], const CzDraw *draw, double value) {
-    char number[CZ_FIGURE_ROOM];
+    char number[CZ_FIGURE_SIZE];
     const bool is_factor = draw->effect == CZ_DRAW_FACTOR;
     const double shown = is_factor ? 100 * (value - 1) : value;
     const char *unit = is_factor ? "%" : draw->unit;
@@ -42,7 +42,7 @@ void cz_challenge_values_sentence(const CzChallenge *challenge, int point,
 }
 
 static void add_weak(char text[CZ_CHALLENGE_SENTENCE], const CzWeakPoint *weak) {
-    char number[CZ_FIGURE_ROOM];
+    char number[CZ_FIGURE_SIZE];
     const CzCheckResult *check = &weak->check;
     if (check->name == NULL) {
         add(text, "%s", weak->message != NULL ? weak->message : "a vehicle climbed");
@@ -102,7 +102,7 @@ static void put_weak(CzReportTable *table, const CzChallenge *challenge, int i, 
     const CzWeakPoint *weak = &challenge->weak[i];
     const CzCheckResult *check = &weak->check;
     const bool fails = weak->verdict == CZ_VERDICT_FAIL, has_check = check->name != NULL;
-    char text[CZ_FIGURE_ROOM], values[CZ_CHALLENGE_SENTENCE];
+    char text[CZ_FIGURE_SIZE], values[CZ_CHALLENGE_SENTENCE];
     cz_table_put(table, cz_figure_digits(text, 9, i + 1));
     cz_table_put_styled(table,
                         weak->state != CZ_SAMPLE_DONE ? cz_sample_state_text(weak->state)
@@ -138,7 +138,7 @@ void cz_challenge_begin_weak(CzReportTable *table, const CzChallenge *challenge,
 
 /* ---- the terminal ---- */
 
-enum { MOST_DRAWS = 24 };
+enum { MAX_DRAWS = 24 };
 
 void cz_challenge_write_table(const CzReport *report, CzTerminal *terminal) {
     const CzChallenge *challenge = report->challenge;
@@ -147,7 +147,7 @@ void cz_challenge_write_table(const CzReport *report, CzTerminal *terminal) {
     cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s\n", cz_problem_title(challenge->problem));
     cz_challenge_method_sentence(challenge, text);
     cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s\n\n", text);
-    if (challenge->n_draw <= MOST_DRAWS) {
+    if (challenge->n_draw <= MAX_DRAWS) {
         cz_sample_begin_draws(&table, CZ_DRAW_HEADS("number"), challenge->n_draw, challenge->draw);
         cz_table_write_text(&table, terminal);
         fputc('\n', terminal->stream);

@@ -19,7 +19,7 @@ typedef struct Reading {
     char **title;
     bool by_unit; /* find the columns by the units of the axes */
     int n;
-    CzChartCurve *measured; /* (CZ_MOST_CHART_CURVES) */
+    CzChartCurve *measured; /* (CZ_MAX_CHART_CURVES) */
     CzError *error;
 } Reading;
 
@@ -70,10 +70,10 @@ static void name_curve(char *name, size_t room, const char *title, const char *q
 static CzStatus read_column(Reading *reading, const char *column, const char *title) {
     const CzChartOptions *options = reading->options;
     CzChart chart = reading->chart;
-    if (reading->n == CZ_MOST_CHART_CURVES)
+    if (reading->n == CZ_MAX_CHART_CURVES)
         return cz_fail(reading->error, CZ_STATUS_INPUT,
                        "%.200s: more than %d measured curves are too many for a figure",
-                       options->measured, (int)CZ_MOST_CHART_CURVES);
+                       options->measured, (int)CZ_MAX_CHART_CURVES);
     if (chart == CZ_CHART_PANELS)
         CZ_TRY(find_panel(reading, title, &chart));
     CzChartAxes axes = {0};
@@ -175,7 +175,7 @@ static void name_single_ones(int n, CzChartCurve *measured) {
 }
 
 CzStatus cz_chart_curves_read(const CzChartOptions *options, CzChart chart, int *n,
-                              CzChartCurve measured[CZ_MOST_CHART_CURVES], CzError *error) {
+                              CzChartCurve measured[CZ_MAX_CHART_CURVES], CzError *error) {
     *n = 0;
     if (options->measured == NULL)
         return CZ_OK;
@@ -244,14 +244,14 @@ static CzCurve *copy_history(const CzMeasured *history) {
 }
 
 CzStatus cz_chart_curves_of_fit(const CzProblem *problem, const CzRunSummary *run, int *n,
-                                CzChartCurve curve[CZ_MOST_CHART_CURVES], CzError *error) {
+                                CzChartCurve curve[CZ_MAX_CHART_CURVES], CzError *error) {
     const CzOptimise *optimise = &cz_problem_input(problem)->optimise;
     const char **vehicle = malloc((size_t)run->n_vehicle * sizeof *vehicle);
     CzStatus status = vehicle != NULL ? CZ_OK : CZ_STATUS_NO_MEMORY;
     *n = 0;
     for (int i = 0; vehicle != NULL && i < run->n_vehicle; i++)
         vehicle[i] = run->vehicle[i].name;
-    for (int i = 0; status == CZ_OK && i < optimise->n_match && *n < CZ_MOST_CHART_CURVES; i++) {
+    for (int i = 0; status == CZ_OK && i < optimise->n_match && *n < CZ_MAX_CHART_CURVES; i++) {
         const CzMatch *match = &optimise->match[i];
         const bool is_here = match->scenario == NULL || strcmp(match->scenario, run->scenario) == 0;
         const CzChart chart = chart_of_match(match, run->n_vehicle, vehicle);

@@ -9,13 +9,13 @@
  * beginning of a column's title chooses the panel, as in names of channels: F_, v_, x_, d_.
  * Statuses: CZ_STATUS_INPUT, CZ_STATUS_NO_MEMORY; free the curves in any case. */
 CZ_MUST_CHECK CzStatus cz_chart_curves_read(const CzChartOptions *options, CzChart chart, int *n,
-                                            CzChartCurve measured[CZ_MOST_CHART_CURVES],
+                                            CzChartCurve measured[CZ_MAX_CHART_CURVES],
                                             CzError *error);
 /* The measured time histories of a fit in the scenario of a run, each for the figure of its
  * channel; none for channels without a figure. Status: CZ_STATUS_NO_MEMORY; free the curves in any
  * case. */
 CZ_MUST_CHECK CzStatus cz_chart_curves_of_fit(const CzProblem *problem, const CzRunSummary *run,
-                                              int *n, CzChartCurve curve[CZ_MOST_CHART_CURVES],
+                                              int *n, CzChartCurve curve[CZ_MAX_CHART_CURVES],
                                               CzError *error);
 void cz_chart_curves_free(int n, CzChartCurve *measured);
 

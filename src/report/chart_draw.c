@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_LIFTS = 14 /* wheelsets in the figure of lifts */ };
+enum { MAX_LIFTS = 14 /* wheelsets in the figure of lifts */ };
 
 /* A figure while its curves are collected. */
 typedef struct Sheet {
@@ -36,7 +36,7 @@ static CzSeries *put(Sheet *sheet, CzSeries series) {
 /* Name of a curve for the cursor of the page, stored with the figure; NULL without memory, and for
  * a run that the cursor does not show. */
 static const char *channel_name(Sheet *sheet, CzDrawn drawn, int place) {
-    char name[CZ_CHANNEL_ROOM];
+    char name[CZ_CHANNEL_SIZE];
     if (sheet->page->is_beside)
         return NULL;
     cz_drawn_name(sheet->page->summary, drawn, place, name);
@@ -59,7 +59,7 @@ static CzSeries *add(Sheet *sheet, CzDrawn drawn, int place) {
 /* Names a curve "first second" after two texts. */
 static void rename_curve(Sheet *sheet, CzSeries *series, const char *format, const char *first,
                          const char *second) {
-    char name[CZ_WHERE_ROOM];
+    char name[CZ_WHERE_SIZE];
     if (series == NULL)
         return;
     snprintf(name, sizeof name, format, first, second);
@@ -272,7 +272,7 @@ static double lift_of(const CzRunSummary *run, int wheelset) {
 
 /* Wheelsets, four a vehicle, in the order of their largest lift, highest first; only those that
  * leave the rail. */
-static int rank_lifts(const CzRunSummary *run, int wheelset[MOST_LIFTS]) {
+static int rank_lifts(const CzRunSummary *run, int wheelset[MAX_LIFTS]) {
     int n = 0;
     for (int i = 0; i < 4 * run->n_vehicle; i++) {
         const double lift = lift_of(run, i);
@@ -281,9 +281,9 @@ static int rank_lifts(const CzRunSummary *run, int wheelset[MOST_LIFTS]) {
         int at = n;
         while (at > 0 && lift_of(run, wheelset[at - 1]) < lift)
             at--;
-        if (at == MOST_LIFTS)
+        if (at == MAX_LIFTS)
             continue;
-        n += n < MOST_LIFTS;
+        n += n < MAX_LIFTS;
         memmove(&wheelset[at + 1], &wheelset[at], (size_t)(n - 1 - at) * sizeof *wheelset);
         wheelset[at] = i;
     }
@@ -301,7 +301,7 @@ static CzSeries *add_lift(Sheet *sheet, int wheelset) {
 static void draw_lifts(Sheet *sheet, int index) {
     (void)index;
     const CzPage *page = sheet->page;
-    int wheelset[MOST_LIFTS];
+    int wheelset[MAX_LIFTS];
     const int n = rank_lifts(page->summary, wheelset);
     for (int i = 0; i < n; i++) {
         CzSeries *series = add_lift(sheet, wheelset[i]);
@@ -362,8 +362,8 @@ static void collect(Sheet *sheet, CzChart chart, int index) {
 /* Collects the curves of a figure, then draws it. */
 static void write_curves(const CzPage *page, CzChart chart, int index, CzMarkup *markup) {
     const CzChartInfo *info = &cz_charts[chart];
-    const int room = page->summary->n_vehicle + MOST_LIFTS + page->n_other + page->n_measured;
-    char title[CZ_SENTENCE_ROOM], label[2][CZ_DRAWN_LABEL];
+    const int room = page->summary->n_vehicle + MAX_LIFTS + page->n_other + page->n_measured;
+    char title[CZ_SENTENCE_SIZE], label[2][CZ_DRAWN_LABEL];
     cz_chart_title(page, chart, index, sizeof title, title);
     Sheet sheet = {.page = page,
                    .plot = {.title = title,
@@ -391,7 +391,7 @@ static void write_panels(const CzPage *page, int interface, CzMarkup *markup) {
     static const CzChart panels[] = {CZ_CHART_FORCE, CZ_CHART_VELOCITY, CZ_CHART_DISPLACEMENT,
                                      CZ_CHART_SHORTENING};
     const double slot = 340;
-    char title[CZ_SENTENCE_ROOM], text[CZ_SENTENCE_ROOM + 8];
+    char title[CZ_SENTENCE_SIZE], text[CZ_SENTENCE_SIZE + 8];
     cz_chart_title(page, CZ_CHART_PANELS, 0, sizeof title, title);
     cz_svg_open_tiles(markup, title, 4, slot);
     cz_markup_write(markup, " class='panels'>\n");

@@ -37,13 +37,13 @@ typedef struct CzChartAxes {
 /* False for a figure without measured curves. */
 bool cz_chart_axes(CzChart chart, CzChartAxes *axes);
 
-enum { CZ_MOST_CHART_CURVES = 12 };
+enum { CZ_MAX_CHART_CURVES = 12 };
 
 /* A measured curve. */
 typedef struct CzChartCurve {
     CzChart chart;  /* the figure, or the one of the four panels, that it belongs to */
     CzCurve *curve; /* in the units of that figure's axes */
-    char label[CZ_LABEL_ROOM + 16]; /* in the legend */
+    char label[CZ_LABEL_SIZE + 16]; /* in the legend */
 } CzChartCurve;
 
 /* Number of figures of a kind: one per interface or car, one, or none. */

@@ -26,8 +26,8 @@ static const char *yes_or_no(const CzCheckResult *check, double number) {
     return !check->is_flag || counts ? NULL : number == 0 ? "no" : number == 1 ? "yes" : NULL;
 }
 
-const char *cz_checks_limit(char text[CZ_CHECK_ROOM], const CzCheckResult *check) {
-    char number[CZ_FIGURE_ROOM], unit[32];
+const char *cz_checks_limit(char text[CZ_CHECK_SIZE], const CzCheckResult *check) {
+    char number[CZ_FIGURE_SIZE], unit[32];
     double read; /* a typed limit is printed unchanged, a computed one is rounded */
     if (!isfinite(check->limit))
         return "-";
@@ -36,15 +36,15 @@ const char *cz_checks_limit(char text[CZ_CHECK_ROOM], const CzCheckResult *check
     cz_figure_digits(number, 6, check->limit);
     if (cz_number_parse(number, &read) != NULL || read != check->limit)
         cz_figure_digits(number, 4, check->limit);
-    snprintf(text, CZ_CHECK_ROOM, "%s%s%s", check->is_minimum ? "min " : "", number,
+    snprintf(text, CZ_CHECK_SIZE, "%s%s%s", check->is_minimum ? "min " : "", number,
              spaced_unit(check, unit));
     return text;
 }
 
-const char *cz_checks_value(char text[CZ_CHECK_ROOM], const CzCheckResult *check) {
-    char number[CZ_FIGURE_ROOM], unit[32];
+const char *cz_checks_value(char text[CZ_CHECK_SIZE], const CzCheckResult *check) {
+    char number[CZ_FIGURE_SIZE], unit[32];
     if (yes_or_no(check, check->value) != NULL) {
-        snprintf(text, CZ_CHECK_ROOM, "%s%s", yes_or_no(check, check->value),
+        snprintf(text, CZ_CHECK_SIZE, "%s%s", yes_or_no(check, check->value),
                  check->beyond_validity ? "*" : "");
         return text;
     }
@@ -64,7 +64,7 @@ const char *cz_checks_value(char text[CZ_CHECK_ROOM], const CzCheckResult *check
         cz_figure_digits(number, digits, check->value);
     }
     const bool is_known = isfinite(check->value);
-    snprintf(text, CZ_CHECK_ROOM, "%s%s%s", number, is_known ? spaced_unit(check, unit) : "",
+    snprintf(text, CZ_CHECK_SIZE, "%s%s%s", number, is_known ? spaced_unit(check, unit) : "",
              is_known && check->beyond_validity ? "*" : "");
     return text;
 }
@@ -108,7 +108,7 @@ static const char *or_empty(const char *text) {
 static const CzBar margin_bar = {"bar", "margin", 30, 31, "#d0021b", "#009e73"};
 
 void cz_checks_time(const CzCheckResult *check, size_t room, char *text) {
-    char from[CZ_FIGURE_ROOM], to[CZ_FIGURE_ROOM];
+    char from[CZ_FIGURE_SIZE], to[CZ_FIGURE_SIZE];
     text[0] = '\0';
     if (!isfinite(check->when[0]))
         return;
@@ -122,7 +122,7 @@ void cz_checks_time(const CzCheckResult *check, size_t room, char *text) {
 static void put_source(CzReportTable *table, const CzCheckResult *check) {
     const bool has_source = check->source != NULL && check->source[0] != '\0';
     const bool has_confidence = has_source && check->confidence != NULL;
-    char text[3 * CZ_SENTENCE_ROOM];
+    char text[3 * CZ_SENTENCE_SIZE];
     snprintf(text, sizeof text, "%s%s%s%s%s%s%s", or_empty(check->why),
              check->why != NULL && has_source ? "; " : "", or_empty(check->clause),
              check->clause != NULL && has_source ? ", " : "", or_empty(check->source),
@@ -139,7 +139,7 @@ static void put_verdict(CzReportTable *table, const CzCheckResult *check) {
 /* `number` is that of the check on a page; 0 for none. */
 static void put_check(CzReportTable *table, const CzCheckResult *check, const CzCheckResult *before,
                       int number) {
-    char text[CZ_CHECK_ROOM] = "";
+    char text[CZ_CHECK_SIZE] = "";
     cz_table_put(table, check->name);
     if (number > 0)
         cz_table_anchor(table, "check", number);
@@ -249,7 +249,7 @@ static void write_verdict(CzTerminal *terminal, CzVerdict verdict) {
 
 /* The last line of a table: "22 checks: 3 FAIL, 19 pass. Verdict: FAIL." */
 static void write_count(const CzEvaluation *evaluation, CzTerminal *terminal) {
-    char remark[CZ_SCREENING_ROOM];
+    char remark[CZ_SCREENING_SIZE];
     int n[4] = {0};
     for (int i = 0; i < evaluation->n_check; i++)
         n[evaluation->check[i].verdict]++;

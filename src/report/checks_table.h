@@ -20,9 +20,9 @@ void cz_checks_write_rows(CzMarkup *markup, const CzEvaluation *evaluation,
 
 /* A value in its unit, with enough digits to differ from a limit that it violates; the limit in its
  * unit, a lower limit with "min" in front; of a yes or no the words. Both return a text. */
-enum { CZ_CHECK_ROOM = 96 };
-const char *cz_checks_value(char text[CZ_CHECK_ROOM], const CzCheckResult *check);
-const char *cz_checks_limit(char text[CZ_CHECK_ROOM], const CzCheckResult *check);
+enum { CZ_CHECK_SIZE = 96 };
+const char *cz_checks_value(char text[CZ_CHECK_SIZE], const CzCheckResult *check);
+const char *cz_checks_limit(char text[CZ_CHECK_SIZE], const CzCheckResult *check);
 
 /* Time at which the value was reached, or window of a mean [ms]; empty where it is not known. */
 void cz_checks_time(const CzCheckResult *check, size_t room, char *text);

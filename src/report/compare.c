@@ -107,7 +107,7 @@ const char *cz_compared_caution(const CzReport *report) {
 static void begin(CzReportTable *table, const CzReport *report, const char *heads) {
     cz_table_begin(table, heads);
     for (int i = 0; i < report->n_compared; i++) {
-        char head[CZ_SENTENCE_ROOM];
+        char head[CZ_SENTENCE_SIZE];
         snprintf(head, sizeof head, ">%s", report->compared[i].label);
         cz_table_head(table, head);
     }
@@ -120,7 +120,7 @@ static void put_verdicts(CzReportTable *table, const CzReport *report) {
     for (int i = 0; i < report->n_compared; i++) {
         const CzEvaluation *evaluation = report->compared[i].evaluation;
         const CzVerdict verdict = evaluation->verdict;
-        char text[CZ_LABEL_ROOM];
+        char text[CZ_LABEL_SIZE];
         snprintf(text, sizeof text, "%s%s", cz_verdict_word(verdict),
                  cz_verdict_is_screening(verdict, evaluation->n_not_covered) ? " (screening)" : "");
         cz_table_put_styled(table, text, cz_verdict_style(verdict));
@@ -134,7 +134,7 @@ void cz_compared_begin_checks(CzReportTable *table, const CzReport *report, int 
     put_verdicts(table, report);
     for (int k = 0; k < first->n_check; k++) {
         const CzCheckResult *check = &first->check[k];
-        char text[CZ_CHECK_ROOM + 24], value[CZ_CHECK_ROOM];
+        char text[CZ_CHECK_SIZE + 24], value[CZ_CHECK_SIZE];
         if (!cz_compared_differs(report, check)) {
             ++*n_same;
             continue;
@@ -166,7 +166,7 @@ static bool is_known(const CzReport *report, const CzResult *result, const char 
 
 /* The change of a number from the first run to another one: "+12.3 (+5.4 %)"; empty for none. */
 static void put_difference(CzReportTable *table, double from, double to) {
-    char size[CZ_FIGURE_ROOM], share[CZ_FIGURE_ROOM];
+    char size[CZ_FIGURE_SIZE], share[CZ_FIGURE_SIZE];
     if (isnan(from) || isnan(to) || from == to) {
         cz_table_put(table, from == to ? "0" : "");
         return;
@@ -182,7 +182,7 @@ static void put_difference(CzReportTable *table, double from, double to) {
 /* Heads of the changes of all runs but the first. */
 static void add_changes(CzReportTable *table, const CzReport *report) {
     for (int i = 1; i < report->n_compared; i++) {
-        char head[CZ_SENTENCE_ROOM];
+        char head[CZ_SENTENCE_SIZE];
         if (report->n_compared == 2)
             snprintf(head, sizeof head, ">change");
         else
@@ -195,7 +195,7 @@ static void add_changes(CzReportTable *table, const CzReport *report) {
 static void put_numbers(CzReportTable *table, const CzReport *report, const CzResult *result,
                         const char *name) {
     const double factor = result->format == CZ_FORMAT_PERCENT ? 100 : 1;
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     cz_table_put(table, name);
     cz_table_put(table, result->title);
     for (int i = 0; i < report->n_compared; i++) {
@@ -225,7 +225,7 @@ void cz_compared_begin_numbers(CzReportTable *table, const CzReport *report, boo
 
 /* The value of a run, in the unit of the difference. */
 static void put_input(CzReportTable *table, const CzInputDifference *input, int run) {
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     if (input->value[run] == NULL)
         cz_table_put(table, "-");
     else if (isnan(input->number[run]))
@@ -253,7 +253,7 @@ void cz_compared_begin_inputs(CzReportTable *table, const CzReport *report, int 
     cz_table_head(table, "written in");
     for (int k = 0; k < comparison->n_input && k < most; k++) {
         const CzInputDifference *input = &comparison->input[k];
-        char text[CZ_FIGURE_ROOM];
+        char text[CZ_FIGURE_SIZE];
         snprintf(text, sizeof text, "%d", input->n_place);
         cz_table_put(table, input->path);
         cz_table_put(table, input->n_place > 1 ? text : "");
@@ -274,7 +274,7 @@ void cz_compared_begin_differences(CzReportTable *table, const CzReport *report)
         cz_table_put(table, number->path);
         cz_table_put(table, number->unit);
         for (int i = 0; i < report->n_compared; i++) {
-            char text[CZ_FIGURE_ROOM];
+            char text[CZ_FIGURE_SIZE];
             cz_figure_plain(text, number->value[i]);
             cz_table_put(table, cz_figure_mark(text, cz_compared_is_beyond(report, i)));
         }
@@ -287,7 +287,7 @@ void cz_compared_begin_differences(CzReportTable *table, const CzReport *report)
 
 /* Inputs that differ. */
 static void write_inputs(const CzReport *report, CzTerminal *terminal) {
-    enum { MOST_INPUTS = 40 };
+    enum { MAX_INPUTS = 40 };
     const CzComparison *comparison = report->comparison;
     CzReportTable table;
     if (comparison == NULL)
@@ -296,18 +296,18 @@ static void write_inputs(const CzReport *report, CzTerminal *terminal) {
         fprintf(terminal->stream, "The inputs are equal: %d values.\n\n", comparison->n_same_input);
         return;
     }
-    cz_compared_begin_inputs(&table, report, MOST_INPUTS);
+    cz_compared_begin_inputs(&table, report, MAX_INPUTS);
     cz_table_write_text(&table, terminal);
-    if (comparison->n_input > MOST_INPUTS)
+    if (comparison->n_input > MAX_INPUTS)
         fprintf(terminal->stream, "and %d more, which the page and --json list.\n",
-                comparison->n_input - MOST_INPUTS);
+                comparison->n_input - MAX_INPUTS);
     fprintf(terminal->stream, "%d input%s, %d values are the same.\n\n", comparison->n_input,
             comparison->n_input == 1 ? " differs" : "s differ", comparison->n_same_input);
 }
 
 /* Trains and vehicles of other names. */
 static void write_names(const CzReport *report, CzTerminal *terminal) {
-    char text[CZ_SENTENCE_ROOM];
+    char text[CZ_SENTENCE_SIZE];
     bool any = false;
     for (int i = 1; i < report->n_compared; i++)
         if (cz_compared_names_sentence(report, i, sizeof text, text)) {

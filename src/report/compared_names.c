@@ -54,27 +54,27 @@ const char *cz_compared_names_in(const CzComparison *comparison, int run, const 
 
 bool cz_compared_names_match(const CzComparison *comparison, int run, const char *own,
                              const char *first) {
-    char text[2 * CZ_NAME_ROOM];
+    char text[2 * CZ_NAME_SIZE];
     if (comparison == NULL || comparison->n_name == 0 || run == 0)
         return strcmp(own, first) == 0;
     return put(comparison, run, own, sizeof text, text) < sizeof text && strcmp(text, first) == 0;
 }
 
 bool cz_compared_names_sentence(const CzReport *report, int run, size_t room, char *text) {
-    enum { MOST = 12 };
+    enum { MAX_NAMES = 12 };
     const CzComparison *comparison = report->comparison;
     int n = 0, used = 0;
     for (int i = 0; comparison != NULL && i < comparison->n_name; i++) {
         const CzComparedName *name = &comparison->name[i];
-        if (name->run != run || used >= (int)room || n++ > MOST)
+        if (name->run != run || used >= (int)room || n++ > MAX_NAMES)
             continue;
         if (n == 1)
             used += snprintf(text, room,
                              "Names of %s are paired by place: ", report->compared[run].label);
         if (used < (int)room)
-            used += n <= MOST ? snprintf(text + used, room - (size_t)used, "%s%s is %s",
-                                         n > 1 ? ", " : "", name->other, name->first)
-                              : snprintf(text + used, room - (size_t)used, " and more");
+            used += n <= MAX_NAMES ? snprintf(text + used, room - (size_t)used, "%s%s is %s",
+                                              n > 1 ? ", " : "", name->other, name->first)
+                                   : snprintf(text + used, room - (size_t)used, " and more");
     }
     return n > 0;
 }

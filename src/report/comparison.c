@@ -24,7 +24,7 @@ typedef struct Comparing {
     CzComparison comparison; /* the first member, which the caller owns */
     CzArena arena;
     const CzReport *report;
-    Listed listed[CZ_MOST_COMPARED];
+    Listed listed[CZ_MAX_COMPARED];
     CzIndex missing; /* parts that only some problems have and that were listed */
 } Comparing;
 
@@ -295,7 +295,7 @@ static void compare_number(Comparing *comparing, const RunNumbers *numbers, int 
 }
 
 static void compare_numbers(Comparing *comparing) {
-    RunNumbers numbers[CZ_MOST_COMPARED] = {{0}};
+    RunNumbers numbers[CZ_MAX_COMPARED] = {{0}};
     for (int i = 0; i < comparing->comparison.n_run; i++) {
         const CzRunSummary *run = cz_compared_run(comparing->report, i);
         CzResultContext context = {.report = comparing->report,

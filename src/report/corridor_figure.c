@@ -9,12 +9,12 @@
 #include <string.h>
 
 /* The force axis begins below the lowest curve, so that a narrow corridor can be seen. */
-enum { MOST_POINTS = CZ_MOST_CURVE_POINTS, MOST_FAILING = 2 };
+enum { MAX_POINTS = CZ_MAX_CORRIDOR_POINTS, MAX_FAILING = 2 };
 
 /* Points of a curve as drawn. */
 typedef struct Drawn {
     int n;
-    double x[MOST_POINTS], y[MOST_POINTS]; /* [mm], [kN] */
+    double x[MAX_POINTS], y[MAX_POINTS]; /* [mm], [kN] */
 } Drawn;
 
 static Drawn curve_of(int n, const double *stroke, const double *force) {
@@ -27,7 +27,7 @@ static Drawn curve_of(int n, const double *stroke, const double *force) {
 }
 
 static Drawn failing_of(const CzCorridor *corridor, const CzTriedCurve *curve) {
-    double stroke[CZ_MOST_CURVE_POINTS], force[CZ_MOST_CURVE_POINTS];
+    double stroke[CZ_MAX_CORRIDOR_POINTS], force[CZ_MAX_CORRIDOR_POINTS];
     const int n = cz_corridor_law(corridor, curve->factor, stroke, force);
     return curve_of(n, stroke, force);
 }
@@ -35,7 +35,7 @@ static Drawn failing_of(const CzCorridor *corridor, const CzTriedCurve *curve) {
 /* The corridor as one closed line: the lower edge, and the upper one back. */
 typedef struct Area {
     int n;
-    double x[2 * MOST_POINTS], y[2 * MOST_POINTS];
+    double x[2 * MAX_POINTS], y[2 * MAX_POINTS];
 } Area;
 
 static Area area_of(const Drawn *lower, const Drawn *upper) {
@@ -56,8 +56,8 @@ void cz_corridor_draw(const CzCorridor *corridor, bool is_figure, CzMarkup *mark
     const Drawn nominal = curve_of(corridor->n_point, corridor->stroke, corridor->nominal);
     const Drawn upper = curve_of(corridor->n_point, corridor->stroke, corridor->upper);
     const Area area = area_of(&lower, &upper);
-    Drawn failing[MOST_FAILING];
-    CzSeries series[3 + MOST_FAILING];
+    Drawn failing[MAX_FAILING];
+    CzSeries series[3 + MAX_FAILING];
     int n = 0;
     if (corridor->exists)
         series[n++] = (CzSeries){.name = "corridor",

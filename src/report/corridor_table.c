@@ -13,7 +13,7 @@
 
 /* Why a curve fails. */
 static void failure_reason(const CzTriedCurve *curve, size_t room, char *text) {
-    char number[CZ_FIGURE_ROOM];
+    char number[CZ_FIGURE_SIZE];
     if (curve->check[0] == '\0')
         snprintf(text, room, "%s", curve->message);
     else if (curve->verdict == CZ_VERDICT_NOT_CHECKED)
@@ -26,7 +26,7 @@ static void failure_reason(const CzTriedCurve *curve, size_t room, char *text) {
 
 /* An edge in percent, such as "-14" or "+20". */
 static const char *edge_percent(const CzCorridor *corridor, int edge,
-                                char text[CZ_FIGURE_ROOM + 1]) {
+                                char text[CZ_FIGURE_SIZE + 1]) {
     const double percent = 100 * corridor->edge[edge].width;
     text[0] = '+';
     cz_figure_digits(text + (edge == 1 && percent > 0), 6, edge == 0 ? 0 - percent : percent);
@@ -35,7 +35,7 @@ static const char *edge_percent(const CzCorridor *corridor, int edge,
 
 void cz_corridor_result_sentence(const CzCorridor *corridor, char text[CZ_CORRIDOR_SENTENCE]) {
     const CzTriedCurve *failure = cz_corridor_failure(corridor);
-    char low[CZ_FIGURE_ROOM + 1], high[CZ_FIGURE_ROOM + 1], words[CZ_CURVE_WORDS], reason[400];
+    char low[CZ_FIGURE_SIZE + 1], high[CZ_FIGURE_SIZE + 1], words[CZ_CURVE_WORDS], reason[400];
     const bool is_provisional =
         corridor->exists && corridor->curve[0].verdict == CZ_VERDICT_PROVISIONAL;
     const char *end =
@@ -67,7 +67,7 @@ void cz_corridor_device_sentence(const CzCorridor *corridor, char text[CZ_CORRID
 }
 
 void cz_corridor_tried_sentence(const CzCorridor *corridor, char text[CZ_CORRIDOR_SENTENCE]) {
-    char scatter[80] = "", number[CZ_FIGURE_ROOM];
+    char scatter[80] = "", number[CZ_FIGURE_SIZE];
     if (corridor->n_draw > 0)
         snprintf(scatter, sizeof scatter, ", these and the edges in %d samples of the scatter",
                  corridor->n_random);
@@ -85,7 +85,7 @@ void cz_corridor_tried_sentence(const CzCorridor *corridor, char text[CZ_CORRIDO
 /* ---- tables ---- */
 
 void cz_corridor_begin_points(CzReportTable *table, const CzCorridor *corridor) {
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     cz_table_begin(table, ">stroke [mm];>lower [kN];>nominal [kN];>upper [kN]");
     for (int i = 0; i < corridor->n_point; i++) {
         const double force[] = {corridor->lower[i], corridor->nominal[i], corridor->upper[i]};
@@ -97,7 +97,7 @@ void cz_corridor_begin_points(CzReportTable *table, const CzCorridor *corridor) 
 
 static void put_edge(CzReportTable *table, const CzCorridor *corridor, int edge) {
     const int failing = corridor->edge[edge].failing;
-    char text[CZ_FIGURE_ROOM + 1], words[CZ_CURVE_WORDS];
+    char text[CZ_FIGURE_SIZE + 1], words[CZ_CURVE_WORDS];
     cz_table_put(table, edge == 0 ? "lower" : "upper");
     cz_table_put_format(table, "%s %%", edge_percent(corridor, edge, text));
     if (failing < 0) {

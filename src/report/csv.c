@@ -81,7 +81,7 @@ static void put_text(Table *table, const char *text) {
 
 /* Writes a typed number, or one that is an error measure. */
 static void put_exact(Table *table, double value) {
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     begin_field(table);
     if (!isfinite(value))
         return;
@@ -233,7 +233,7 @@ void cz_csv_write_channels(const CzRun *run, const CzReportOptions *options, FIL
         const CzColumn column = cz_run_column(run, i);
         const CzChannelInfo *info = cz_channel_info(column.channel);
         const char *place = cz_run_place_name(summary, info->at, column.place);
-        char name[CZ_CHANNEL_ROOM];
+        char name[CZ_CHANNEL_SIZE];
         put_text(&table, cz_channel_name(info, column.place, place, name));
     }
     put_text(&table, "beyond_validity");
@@ -342,7 +342,7 @@ static void put_margin(Table *table, bool is_flag, double margin, CzVerdict verd
 }
 
 static void put_check_head(Table *table, const char *check, const char *scenario) {
-    char name[2 * CZ_LABEL_ROOM + CZ_NAME_ROOM];
+    char name[2 * CZ_LABEL_SIZE + CZ_NAME_SIZE];
     snprintf(name, sizeof name, "%s, %s", check, scenario);
     put_text(table, name);
 }

@@ -18,17 +18,17 @@ const char *cz_document_title(int line) {
 }
 
 /* "en15227-2008, EN 15227:2008+A1:2010, category C-I". */
-static const char *profile_text(const CzProblem *problem, char text[CZ_DOCUMENT_ROOM]) {
+static const char *profile_text(const CzProblem *problem, char text[CZ_DOCUMENT_SIZE]) {
     const CzProfile *profile = cz_problem_profile(problem);
     const char *category = cz_problem_input(problem)->checks.category;
     if (profile == NULL)
         return NULL;
-    snprintf(text, CZ_DOCUMENT_ROOM, "%s, %s%s%s", profile->name, profile->edition,
+    snprintf(text, CZ_DOCUMENT_SIZE, "%s, %s%s%s", profile->name, profile->edition,
              category != NULL ? ", category " : "", category != NULL ? category : "");
     return text;
 }
 
-const char *cz_document_text(const CzProblem *problem, int line, char text[CZ_DOCUMENT_ROOM]) {
+const char *cz_document_text(const CzProblem *problem, int line, char text[CZ_DOCUMENT_SIZE]) {
     const CzDocument *document = &cz_problem_input(problem)->document;
     switch (line) {
     case PROJECT:
@@ -40,7 +40,7 @@ const char *cz_document_text(const CzProblem *problem, int line, char text[CZ_DO
     case DATE:
         return document->date;
     case PROGRAM:
-        snprintf(text, CZ_DOCUMENT_ROOM, "crushzone %s", cz_version());
+        snprintf(text, CZ_DOCUMENT_SIZE, "crushzone %s", cz_version());
         return text;
     case PROBLEM_FILE:
         return cz_problem_reported_name(problem, cz_problem_file(problem));

@@ -5,11 +5,11 @@
 
 #include "crushzone/problem.h"
 
-enum { CZ_DOCUMENT_ROOM = 512, CZ_N_DOCUMENT_LINE = 8 };
+enum { CZ_DOCUMENT_SIZE = 512, CZ_N_DOCUMENT_LINE = 8 };
 
 const char *cz_document_title(int line);
 
 /* NULL where the problem has none; else in `text` or in the problem. */
-const char *cz_document_text(const CzProblem *problem, int line, char text[CZ_DOCUMENT_ROOM]);
+const char *cz_document_text(const CzProblem *problem, int line, char text[CZ_DOCUMENT_SIZE]);
 
 #endif

@@ -53,7 +53,7 @@ const double *cz_drawn_beside(const CzRunSummary *run, CzChannel channel, int pl
 }
 
 const char *cz_drawn_name(const CzRunSummary *run, CzDrawn drawn, int place,
-                          char name[CZ_CHANNEL_ROOM]) {
+                          char name[CZ_CHANNEL_SIZE]) {
     const CzChannelInfo *info = cz_drawn_info(drawn);
     return cz_channel_name(info, place, cz_run_place_name(run, info->at, place), name);
 }

@@ -50,6 +50,6 @@ const char *cz_drawn_label(CzDrawn drawn, char label[CZ_DRAWN_LABEL]);
 
 /* Name of a curve, as of a column of channels.csv; returns it. */
 const char *cz_drawn_name(const CzRunSummary *run, CzDrawn drawn, int place,
-                          char name[CZ_CHANNEL_ROOM]);
+                          char name[CZ_CHANNEL_SIZE]);
 
 #endif

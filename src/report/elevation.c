@@ -19,7 +19,7 @@
 #define UNSTATED 0.95 /* where faces without a given height are drawn [m] */
 #define CHAIN_TOP 240.0
 #define CHAIN_ROW 36.0
-enum { REAR, FRONT, MOST_LABELS = 6 };
+enum { REAR, FRONT, MAX_LABELS = 6 };
 
 /* One of the two ends. */
 typedef struct Side {
@@ -101,11 +101,11 @@ typedef struct Label {
 } Label;
 
 static void add_label(Label *label, int *n, const char *what, double z, double to) {
-    if (isfinite(z) && z > 0 && *n < MOST_LABELS)
+    if (isfinite(z) && z > 0 && *n < MAX_LABELS)
         label[(*n)++] = (Label){what, z, to, height(z) + 4};
 }
 
-static int gather_labels(const Side *side, Label label[MOST_LABELS]) {
+static int gather_labels(const Side *side, Label label[MAX_LABELS]) {
     const CzEnd *end = side->end;
     const double inside = side->plane - (WIDTH / 2 - COLUMN) / SCALE + 0.2;
     int n = 0;
@@ -146,14 +146,14 @@ static void spread(Label *label, int n) {
 }
 
 static void write_heights(CzMarkup *markup, const Side *side) {
-    Label label[MOST_LABELS];
+    Label label[MAX_LABELS];
     const int n = gather_labels(side, label);
     if (n == 0 && side->end->given)
         cz_svg_text(markup, side->sign > 0 ? 4 : WIDTH - 4, height(UNSTATED),
                     side->sign > 0 ? "start" : "end", "heights not stated");
     spread(label, n);
     for (int i = 0; i < n; i++) {
-        char number[CZ_FIGURE_ROOM], text[96];
+        char number[CZ_FIGURE_SIZE], text[96];
         snprintf(text, sizeof text, "%s %s m", label[i].what,
                  cz_figure_fixed(number, 3, label[i].z));
         cz_svg_text(markup, side->sign > 0 ? 4 : WIDTH - 4, label[i].y,
@@ -188,7 +188,7 @@ static void write_chain(CzMarkup *markup, const Side *side, int row, const char 
     const char *between = " ";
     double at = side->plane;
     for (int i = 0; i < n; i++) {
-        char number[CZ_FIGURE_ROOM];
+        char number[CZ_FIGURE_SIZE];
         if (!(link[i].length > 0))
             continue;
         write_bar(markup, place(side, at), place(side, at - link[i].length), y + 14, 10,
@@ -243,7 +243,7 @@ static void write_chains(CzMarkup *markup, const Side *side) {
 
 /* Writes the name of the car, and the height offset of its end. */
 static void write_name(CzMarkup *markup, const Side *side) {
-    char text[128], number[CZ_FIGURE_ROOM];
+    char text[128], number[CZ_FIGURE_SIZE];
     snprintf(text, sizeof text, "%s", side->name);
     if (side->rise != 0)
         snprintf(text, sizeof text, "%.60s, its end %s mm %s", side->name,

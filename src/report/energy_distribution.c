@@ -29,7 +29,7 @@ static void write_bar(CzMarkup *markup, double x, double y, double width, double
 
 static void write_row(const CzRunSummary *run, const CzInterfaceResult *interface, double y,
                       double scale, CzMarkup *markup) {
-    char number[CZ_FIGURE_ROOM], share[CZ_FIGURE_ROOM], text[2 * CZ_FIGURE_ROOM + 8];
+    char number[CZ_FIGURE_SIZE], share[CZ_FIGURE_SIZE], text[2 * CZ_FIGURE_SIZE + 8];
     cz_svg_text(markup, LEFT - 6, y + 13, "end", interface->name);
     double x = LEFT;
     for (int kind = 0; kind < CZ_N_ELEMENT_KIND; kind++) {

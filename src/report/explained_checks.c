@@ -9,11 +9,11 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_CHANGES = 6 }; /* on a terminal */
+enum { MAX_CHANGES = 6 }; /* on a terminal */
 
 static void write_head(const CzExplainedCheck *explained, CzTerminal *terminal) {
     const CzCheckResult *check = &explained->check;
-    char value[CZ_CHECK_ROOM], limit[CZ_CHECK_ROOM], text[CZ_FIGURE_ROOM];
+    char value[CZ_CHECK_SIZE], limit[CZ_CHECK_SIZE], text[CZ_FIGURE_SIZE];
     cz_terminal_print(terminal,
                       check->verdict == CZ_VERDICT_FAIL   ? CZ_STYLE_BAD
                       : cz_verdict_passes(check->verdict) ? CZ_STYLE_GOOD
@@ -46,7 +46,7 @@ static void write_carriers(const CzExplainedCheck *explained, CzTerminal *termin
     static const char *const heads[] = {[CZ_CARRIED_FORCE] = "carried by;>kN;>share",
                                         [CZ_CARRIED_ENERGY] = "absorbed by;>kJ;>share",
                                         [CZ_CARRIED_MOMENT] = "pitched by;>kNms;>share"};
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     CzReportTable table;
     if (explained->n_carrier == 0)
         return;
@@ -61,7 +61,7 @@ static void write_carriers(const CzExplainedCheck *explained, CzTerminal *termin
 }
 
 static void write_states(const CzExplainedCheck *explained, CzTerminal *terminal) {
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     CzReportTable table;
     if (explained->n_state == 0)
         return;
@@ -81,13 +81,13 @@ static void write_states(const CzExplainedCheck *explained, CzTerminal *terminal
 }
 
 static void put_number(CzReportTable *table, double value, const char *unit) {
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     cz_table_put_format(table, "%s %s", cz_figure_digits(text, 4, value), unit);
 }
 
 /* The margin of a change; of a yes or no its verdict. */
 static void put_margin(CzReportTable *table, const CzTriedChange *change, bool is_flag) {
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     cz_table_put_styled(table,
                         !is_flag         ? cz_figure_margin(text, change->margin)
                         : change->passes ? "pass"
@@ -96,7 +96,7 @@ static void put_margin(CzReportTable *table, const CzTriedChange *change, bool i
 }
 
 static void put_change(CzReportTable *table, const CzTriedChange *change, bool is_flag) {
-    char text[CZ_FIGURE_ROOM], before[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE], before[CZ_FIGURE_SIZE];
     cz_table_put(table, change->name);
     put_number(table, change->value, change->unit);
     put_number(table, change->tried, change->unit);
@@ -133,7 +133,7 @@ static void write_changes(const CzExplanation *explanation, const CzExplainedChe
                    : "No single change makes it pass without breaking another check; the best "
                      "of those tried:\n");
     cz_table_begin(&table, "value;>now;>then;>margin;other check with the smallest margin;>broken");
-    for (int i = 0; i < explained->n_change && i < MOST_CHANGES; i++)
+    for (int i = 0; i < explained->n_change && i < MAX_CHANGES; i++)
         put_change(&table, &change[i], explained->check.is_flag);
     cz_table_write_text(&table, terminal);
 }

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_SHOWN = 12 }; /* candidates on a terminal */
+enum { MAX_SHOWN = 12 }; /* candidates on a terminal */
 
 static const char *unit_of(const char *key) {
     const char *const suffix[] = {"_mm", "_kN", "_mrad", "_kNm", "_kNm_rad", "_MNm_rad", "_MN_m"};
@@ -25,7 +25,7 @@ static const char *unit_of(const char *key) {
 
 static void write_head(const CzExplanation *explanation, CzTerminal *terminal) {
     const CzCheckResult *worst = &explanation->worst;
-    char number[CZ_FIGURE_ROOM], value[CZ_CHECK_ROOM], limit[CZ_CHECK_ROOM];
+    char number[CZ_FIGURE_SIZE], value[CZ_CHECK_SIZE], limit[CZ_CHECK_SIZE];
     cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s: ", explanation->scenario);
     if (explanation->climbed) {
         cz_terminal_print(terminal, CZ_STYLE_BAD, "OVERRIDE");
@@ -55,7 +55,7 @@ static void write_indicators(const CzExplanation *explanation, CzTerminal *termi
     cz_table_begin(&table, "indicators;>ms;");
     for (int i = 0; i < explanation->n_indicator; i++) {
         const CzIndicator *indicator = &explanation->indicator[i];
-        char time[CZ_FIGURE_ROOM];
+        char time[CZ_FIGURE_SIZE];
         cz_figure_fixed(time, 0, indicator->time * CZ_MILLI_PER_UNIT);
         cz_table_put(&table, cz_cause_text(indicator->cause));
         cz_table_put(&table, isnan(indicator->time) ? "" : time);
@@ -73,7 +73,7 @@ static void write_budget(const CzExplanation *explanation, CzTerminal *terminal)
     const CzVehicleBudget *budget = &run->budget[explanation->vehicle];
     int order[CZ_N_BUDGET];
     const int n = cz_budget_order(budget, order);
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     if (n == 0)
         return;
     fprintf(terminal->stream,
@@ -93,7 +93,7 @@ static void write_budget(const CzExplanation *explanation, CzTerminal *terminal)
 }
 
 static void put_candidate(CzReportTable *table, const CzCandidateChange *candidate) {
-    char number[CZ_FIGURE_ROOM], text[CZ_FIGURE_ROOM + 16];
+    char number[CZ_FIGURE_SIZE], text[CZ_FIGURE_SIZE + 16];
     const char *unit = unit_of(candidate->key);
     cz_table_put(table, cz_cause_text(candidate->cause));
     cz_table_put(table, candidate->name);
@@ -116,7 +116,7 @@ static void write_candidates(const CzExplanation *explanation, bool turning, CzT
     CzReportTable table;
     int n = 0;
     cz_table_begin(&table, "cause;value;>now;>then;>change;>margin");
-    for (int i = 0; i < explanation->n_candidate && n < MOST_SHOWN; i++)
+    for (int i = 0; i < explanation->n_candidate && n < MAX_SHOWN; i++)
         if (explanation->candidate[i].turns == turning &&
             !isnan(explanation->candidate[i].needed)) {
             put_candidate(&table, &explanation->candidate[i]);

@@ -157,14 +157,14 @@ static bool read_table(char *text, Table *table) {
 /* ---- into the database ---- */
 
 /* Name of the table of a file: "channels" of "25-km-h/channels.csv". */
-static void name_table(const Part *part, char name[CZ_NAME_ROOM]) {
+static void name_table(const Part *part, char name[CZ_NAME_SIZE]) {
     const char *slash = strrchr(part->name, '/');
     const char *file = slash != NULL ? slash + 1 : part->name;
-    snprintf(name, CZ_NAME_ROOM, "%.*s", (int)strcspn(file, "."), file);
+    snprintf(name, CZ_NAME_SIZE, "%.*s", (int)strcspn(file, "."), file);
 }
 
 static CzStatus put_table(CzDatabase *database, const Part *part, Table *table, CzError *error) {
-    char name[CZ_NAME_ROOM];
+    char name[CZ_NAME_SIZE];
     CzCell *cell = cz_arena_allocate(&table->arena, (size_t)table->n_column, sizeof *cell);
     if (cell == NULL)
         return cz_no_memory(error, "the tables");
@@ -189,7 +189,7 @@ static CzStatus put_table(CzDatabase *database, const Part *part, Table *table, 
 
 static CzStatus put_document(CzDatabase *database, const Part *part, CzError *error) {
     static const char *const columns[] = {"folder", "name", "document"};
-    char name[CZ_NAME_ROOM];
+    char name[CZ_NAME_SIZE];
     name_table(part, name);
     const CzCell cell[] = {{.text = part->folder}, {.text = name}, {.text = part->text}};
     CZ_TRY(cz_database_table(database, "documents", 3, columns, error));
@@ -249,7 +249,7 @@ static CzStatus put_folder(CzDatabase *database, const char *folder, CzError *er
         return cz_fail(error, CZ_STATUS_INPUT, "%.300s is not a result folder of crushzone",
                        folder);
     for (char *line = marker; line != NULL && status == CZ_OK;) {
-        char *end = strchr(line, '\n'), scenario[CZ_NAME_ROOM];
+        char *end = strchr(line, '\n'), scenario[CZ_NAME_SIZE];
         if (end != NULL)
             *end = '\0';
         const size_t n_scenario = strcspn(line, "/");

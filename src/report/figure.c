@@ -28,7 +28,7 @@ static void unsign_zero(char *text) {
         memmove(text, text + 1, strlen(text));
 }
 
-static const char *with_point(char text[CZ_FIGURE_ROOM]) {
+static const char *with_point(char text[CZ_FIGURE_SIZE]) {
     char *sign = text;
     while (*sign != '\0' && !is_decimal_sign(*sign))
         sign++;
@@ -49,7 +49,7 @@ static const char *with_point(char text[CZ_FIGURE_ROOM]) {
  * digits are one product away, and only near a tie does its rounding decide: those are left to the
  * library, as is what it writes with an exponent. Long tables are half their time in its general
  * way. */
-enum { MOST_QUICK_DIGITS = 12 };
+enum { MAX_QUICK_DIGITS = 12 };
 #define SMALLEST_QUICK 1e-4 /* smaller ones have an exponent */
 #define NEAR_A_TIE 1e-3     /* a product below 1e12 is off by 6e-5 at most */
 
@@ -71,7 +71,7 @@ static int magnitude(double size) {
 static void place_digits(char *text, uint64_t n, int n_digit, int power) {
     for (; n % 10 == 0 && n_digit > 1; n_digit--)
         n /= 10;
-    char digit[MOST_QUICK_DIGITS];
+    char digit[MAX_QUICK_DIGITS];
     for (int i = n_digit - 1; i >= 0; i--, n /= 10)
         digit[i] = (char)('0' + n % 10);
     int at = 0;
@@ -90,7 +90,7 @@ static void place_digits(char *text, uint64_t n, int n_digit, int power) {
 
 static bool write_quickly(char *text, int digits, double value) {
     const double size = fabs(value);
-    if (digits > MOST_QUICK_DIGITS || !(size >= SMALLEST_QUICK && size < power_of_ten[digits]))
+    if (digits > MAX_QUICK_DIGITS || !(size >= SMALLEST_QUICK && size < power_of_ten[digits]))
         return false;
     int power = magnitude(size);
     const double scaled = size * power_of_ten[digits - 1 - power];
@@ -108,27 +108,27 @@ static bool write_quickly(char *text, int digits, double value) {
     return true;
 }
 
-const char *cz_figure_digits(char text[CZ_FIGURE_ROOM], int digits, double value) {
+const char *cz_figure_digits(char text[CZ_FIGURE_SIZE], int digits, double value) {
     if (write_quickly(text, digits, value))
         return text;
-    snprintf(text, CZ_FIGURE_ROOM, "%.*g", digits, value);
+    snprintf(text, CZ_FIGURE_SIZE, "%.*g", digits, value);
     with_point(text);
     unsign_zero(text);
     return text;
 }
 
-const char *cz_figure_fixed(char text[CZ_FIGURE_ROOM], int decimals, double value) {
+const char *cz_figure_fixed(char text[CZ_FIGURE_SIZE], int decimals, double value) {
     if (!(fabs(value) < 1e15))
         return cz_figure_digits(text, 15, value);
-    snprintf(text, CZ_FIGURE_ROOM, "%.*f", decimals, value);
+    snprintf(text, CZ_FIGURE_SIZE, "%.*f", decimals, value);
     with_point(text);
     unsign_zero(text);
     return text;
 }
 
-const char *cz_figure_plain(char text[CZ_FIGURE_ROOM], double value) {
+const char *cz_figure_plain(char text[CZ_FIGURE_SIZE], double value) {
     if (!isfinite(value)) {
-        snprintf(text, CZ_FIGURE_ROOM, "-");
+        snprintf(text, CZ_FIGURE_SIZE, "-");
         return text;
     }
     value = cz_figure_quantity(value);
@@ -142,41 +142,41 @@ const char *cz_figure_plain(char text[CZ_FIGURE_ROOM], double value) {
 
 /* A percentage with `plus` before it unless it is negative; with two digits, or with `is_whole`
  * without decimals from ten on. */
-static const char *write_percent(char text[CZ_FIGURE_ROOM], const char *plus, bool is_whole,
+static const char *write_percent(char text[CZ_FIGURE_SIZE], const char *plus, bool is_whole,
                                  double percent) {
     const double most = 999, size = fabs(cz_figure_quantity(percent));
-    char number[CZ_FIGURE_ROOM];
+    char number[CZ_FIGURE_SIZE];
     if (isnan(percent)) {
-        snprintf(text, CZ_FIGURE_ROOM, "-");
+        snprintf(text, CZ_FIGURE_SIZE, "-");
         return text;
     }
     if (size >= most + 0.5) {
-        snprintf(text, CZ_FIGURE_ROOM, percent < 0 ? "< -999 %%" : "> 999 %%");
+        snprintf(text, CZ_FIGURE_SIZE, percent < 0 ? "< -999 %%" : "> 999 %%");
         return text;
     }
     if (is_whole && size >= 9.95)
         cz_figure_fixed(number, 0, size);
     else
         cz_figure_digits(number, 2, size);
-    snprintf(text, CZ_FIGURE_ROOM, "%s%.40s %%", size > 0 && percent < 0 ? "-" : plus, number);
+    snprintf(text, CZ_FIGURE_SIZE, "%s%.40s %%", size > 0 && percent < 0 ? "-" : plus, number);
     return text;
 }
 
-const char *cz_figure_percent(char text[CZ_FIGURE_ROOM], double share) {
+const char *cz_figure_percent(char text[CZ_FIGURE_SIZE], double share) {
     return write_percent(text, "", true, 100 * share);
 }
 
-const char *cz_figure_margin(char text[CZ_FIGURE_ROOM], double share) {
+const char *cz_figure_margin(char text[CZ_FIGURE_SIZE], double share) {
     return write_percent(text, "+", true, 100 * share);
 }
 
-const char *cz_figure_change(char text[CZ_FIGURE_ROOM], double change) {
+const char *cz_figure_change(char text[CZ_FIGURE_SIZE], double change) {
     return write_percent(text, "", false, 100 * change);
 }
 
-const char *cz_figure_mark(char text[CZ_FIGURE_ROOM], bool beyond_validity) {
+const char *cz_figure_mark(char text[CZ_FIGURE_SIZE], bool beyond_validity) {
     const size_t n = strlen(text);
-    if (beyond_validity && strcmp(text, "-") != 0 && n + 2 <= CZ_FIGURE_ROOM)
+    if (beyond_validity && strcmp(text, "-") != 0 && n + 2 <= CZ_FIGURE_SIZE)
         memcpy(text + n, "*", 2);
     return text;
 }

@@ -94,12 +94,12 @@ static bool is_empty_folder(const char *path) {
 
 /* Removes slashes at the end of a path; fails for a path that cannot be a result folder. */
 static CzStatus clean_path(const char *path, char clean[PATH_MAX], CzError *error) {
-    enum { ROOM_INSIDE = 256 }; /* for the longest name of a file in it */
-    char what[CZ_FAULT_ROOM];
+    enum { SIZE_INSIDE = 256 }; /* for the longest name of a file in it */
+    char what[CZ_FAULT_SIZE];
     size_t n = strlen(path), at;
     while (n > 1 && path[n - 1] == '/')
         n--;
-    if (n == 0 || n > PATH_MAX - ROOM_INSIDE)
+    if (n == 0 || n > PATH_MAX - SIZE_INSIDE)
         return cz_fail(error, CZ_STATUS_OUTPUT, "the name of the result folder is %s",
                        n == 0 ? "empty" : "too long");
     if (cz_text_fault(path, n, false, &at, what))
@@ -432,13 +432,13 @@ static CzStatus move_away(CzFolder *folder, char old[PATH_MAX], char **marker, C
 }
 
 CzStatus cz_folder_finish(CzFolder *folder, CzError *error) {
-    enum { MOST_TRIES = 20 };
+    enum { MAX_TRIES = 20 };
     char old[PATH_MAX] = "", *marker = NULL;
     CzStatus status = CZ_OK;
     if (fputs(CZ_MARKER_WHOLE, folder->marker) == EOF || fflush(folder->marker) != 0)
         status = cz_cannot_write(folder->target, errno, error);
     int why = status == CZ_OK ? EEXIST : 0;
-    for (int attempt = 0; attempt < MOST_TRIES && (why == EEXIST || why == ENOTEMPTY); attempt++) {
+    for (int attempt = 0; attempt < MAX_TRIES && (why == EEXIST || why == ENOTEMPTY); attempt++) {
         if (old[0] != '\0') /* another process has written its results meanwhile */
             cz_remove_files(old, marker);
         status = move_away(folder, old, &marker, error);

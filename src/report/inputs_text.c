@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CAR_INDENT = 6, MOST_LEVELS = 16, MOST_DEFAULTS = 400 };
+enum { CAR_INDENT = 6, MAX_LEVELS = 16, MAX_DEFAULTS = 400 };
 
 static int indent_of(const char *line) {
     return (int)strspn(line, " ");
@@ -123,8 +123,8 @@ static int same_car(const CzInputsText *inputs, int car) {
 
 /* Whether a line begins a record of a car, such as an end, that is worth a reference. */
 static bool begins_part_of_car(const CzInputsText *inputs, int i) {
-    enum { FEWEST_LINES = 5 };
-    return indent_of(inputs->line[i]) == CAR_INDENT + 2 && end_of(inputs, i) - i >= FEWEST_LINES;
+    enum { MIN_LINES = 5 };
+    return indent_of(inputs->line[i]) == CAR_INDENT + 2 && end_of(inputs, i) - i >= MIN_LINES;
 }
 
 /* The first line of an equal record of an earlier car, and that car; -1 when there is none. */
@@ -159,7 +159,7 @@ static void write_reference_to_part(const CzInputsText *inputs, int part, int sa
                                     CzMarkup *markup) {
     const char *key = inputs->line[part], *other = inputs->line[same] + CAR_INDENT + 2;
     const char *origin = strchr(key, '#');
-    char text[CZ_SENTENCE_ROOM], name[64];
+    char text[CZ_SENTENCE_SIZE], name[64];
     name_of(inputs->line[car], name);
     snprintf(text, sizeof text, "%.*s (as %.*s of %s)", (int)strcspn(key, ":") + 1, key,
              (int)strcspn(other, ":"), other, name);
@@ -213,12 +213,12 @@ static bool read_default(const char *line, char value[64], bool *is_ours) {
 }
 
 /* Makes the key of a line the last one of the path. */
-static void follow_path(char keys[MOST_LEVELS][64], int *n_level, const char *line) {
+static void follow_path(char keys[MAX_LEVELS][64], int *n_level, const char *line) {
     const char *lead = line + strspn(line, "# ");
     const bool is_item = strncmp(lead, "- ", 2) == 0;
     const char *key = is_item ? lead + 2 : lead;
     const int level = (int)(key - line) / 2;
-    if (level >= MOST_LEVELS)
+    if (level >= MAX_LEVELS)
         return;
     for (int i = *n_level; i < level; i++)
         keys[i][0] = '\0';
@@ -226,7 +226,7 @@ static void follow_path(char keys[MOST_LEVELS][64], int *n_level, const char *li
     *n_level = level + 1;
 }
 
-static void join_path(char keys[MOST_LEVELS][64], int n_level, char path[256]) {
+static void join_path(char keys[MAX_LEVELS][64], int n_level, char path[256]) {
     size_t used = 0;
     path[0] = '\0';
     for (int i = 0; i < n_level; i++)
@@ -242,7 +242,7 @@ static void add_default(Default *list, int *n, const char *path, const char *val
             list[i].n++;
             return;
         }
-    if (*n == MOST_DEFAULTS)
+    if (*n == MAX_DEFAULTS)
         return;
     Default *added = &list[(*n)++];
     snprintf(added->path, sizeof added->path, "%s", path);
@@ -259,8 +259,8 @@ static void put_default(CzReportTable *table, const Default *found) {
 }
 
 void cz_inputs_text_write_defaults(const CzInputsText *inputs, CzMarkup *markup) {
-    Default *list = malloc(MOST_DEFAULTS * sizeof *list);
-    char keys[MOST_LEVELS][64], path[256], value[64];
+    Default *list = malloc(MAX_DEFAULTS * sizeof *list);
+    char keys[MAX_LEVELS][64], path[256], value[64];
     int n = 0, n_level = 0;
     markup->failed |= list == NULL;
     for (int i = 0; list != NULL && i < inputs->n_line; i++) {

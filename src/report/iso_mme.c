@@ -78,7 +78,7 @@ void cz_iso_mme_code(const CzIsoMme *mme, int channel, char code[CZ_ISO_MME_CODE
 }
 
 /* Name of a channel as in channels.csv, without its unit. */
-static void name_channel(const CzIsoMme *mme, int channel, char name[CZ_CHANNEL_ROOM]) {
+static void name_channel(const CzIsoMme *mme, int channel, char name[CZ_CHANNEL_SIZE]) {
     const CzColumn column = column_of(mme, channel);
     const CzChannelInfo *info = cz_channel_info(column.channel);
     cz_channel_name(info, column.place,
@@ -123,7 +123,7 @@ void cz_iso_mme_write_index(const CzIsoMme *mme, FILE *stream) {
     put(stream, "Instrumentation standard", "NOVALUE");
     fprintf(stream, "%-28s:%d\n", "Number of channels", n);
     for (int i = 0; i < n; i++) {
-        char key[40], code[CZ_ISO_MME_CODE], name[CZ_CHANNEL_ROOM];
+        char key[40], code[CZ_ISO_MME_CODE], name[CZ_CHANNEL_SIZE];
         snprintf(key, sizeof key, "Name of channel %03d", i + 1);
         cz_iso_mme_code(mme, i, code);
         name_channel(mme, i, name);
@@ -134,7 +134,7 @@ void cz_iso_mme_write_index(const CzIsoMme *mme, FILE *stream) {
 static void put_head(const CzIsoMme *mme, int channel, const Dimension *dimension, FILE *stream) {
     const double *time = cz_run_channel(mme->run, CZ_CHANNEL_TIME, 0);
     const int n = cz_run_n_sample(mme->run);
-    char code[CZ_ISO_MME_CODE], name[CZ_CHANNEL_ROOM];
+    char code[CZ_ISO_MME_CODE], name[CZ_CHANNEL_SIZE];
     cz_iso_mme_code(mme, channel, code);
     name_channel(mme, channel, name);
     fprintf(stream, "%-28s:%c\n", "Test object number", code[0]);

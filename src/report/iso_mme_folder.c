@@ -9,7 +9,7 @@ enum { TEST = -2, INDEX = -1 };
 
 static CzStatus write_file(CzFolder *folder, const CzIsoMme *mme, const char *before, int which,
                            CzError *error) {
-    char name[3 * CZ_NAME_ROOM];
+    char name[3 * CZ_NAME_SIZE];
     FILE *stream = NULL;
     if (which == TEST)
         snprintf(name, sizeof name, "%siso-mme/%s.mme", before, mme->test);
@@ -34,7 +34,7 @@ CzStatus cz_iso_mme_write_folder(CzFolder *folder, const CzReport *report, int s
     CzArena arena = {0};
     CzScene *scene;
     int n_scene;
-    char test[CZ_NAME_ROOM];
+    char test[CZ_NAME_SIZE];
     CzStatus status = cz_scenes_build(report->problem, &arena, &n_scene, &scene, error);
     if (status == CZ_OK) {
         const CzIsoMme mme = {.problem = report->problem,

@@ -167,7 +167,7 @@ static bool read_head(char *line, CzArena *arena, CzJournalStart *start) {
     start->head.set = cz_line_texts(&cursor, ", \"set\": [", &start->head.n_set);
     start->head.word = cz_line_texts(&cursor, ", \"options\": [", &start->head.n_word);
     return !cursor.failed && start->head.seed >= 0 && start->head.evaluations > 0 &&
-           start->head.width > 0 && start->head.width <= CZ_MOST_WIDTH && start->n_earlier >= 0 &&
+           start->head.width > 0 && start->head.width <= CZ_MAX_WIDTH && start->n_earlier >= 0 &&
            start->n_variable >= 0 && start->n_constraint >= 0 && start->n_detail >= 0;
 }
 

@@ -81,7 +81,7 @@ static void write_property(CzMarkup *markup, const char *name, const char *value
 
 static void write_properties(const Suites *suites) {
     CzMarkup *markup = &suites->junit->markup;
-    char text[CZ_DOCUMENT_ROOM];
+    char text[CZ_DOCUMENT_SIZE];
     cz_markup_write(markup, "    <properties>\n");
     for (int i = 0; i < CZ_N_DOCUMENT_LINE; i++)
         write_property(markup, cz_document_title(i),
@@ -116,7 +116,7 @@ static void write_run_case(const Suites *suites, const CzRunSummary *run) {
 
 /* Value, limit, margin, place and time of a check, as "value 0.95, limit 0.9091, ...". */
 static void describe(const CzCheckResult *check, size_t room, char *text) {
-    char value[CZ_CHECK_ROOM], limit[CZ_CHECK_ROOM], number[CZ_FIGURE_ROOM], when[CZ_CHECK_ROOM];
+    char value[CZ_CHECK_SIZE], limit[CZ_CHECK_SIZE], number[CZ_FIGURE_SIZE], when[CZ_CHECK_SIZE];
     const bool has_margin = !isnan(check->margin);
     cz_checks_time(check, sizeof when, when);
     snprintf(text, room, "value %s, limit %s%s%s%s%s%s%s%s", cz_checks_value(value, check),
@@ -144,7 +144,7 @@ static void describe_source(const CzCheckResult *check, size_t room, char *text)
 
 static void write_check(const Suites *suites, const CzCheckResult *check) {
     CzMarkup *markup = &suites->junit->markup;
-    char text[3 * CZ_CHECK_ROOM + CZ_WHERE_ROOM], source[2 * CZ_SENTENCE_ROOM];
+    char text[3 * CZ_CHECK_SIZE + CZ_WHERE_SIZE], source[2 * CZ_SENTENCE_SIZE];
     const char *why = check->why != NULL ? check->why : "";
     describe(check, sizeof text, text);
     describe_source(check, sizeof source, source);
@@ -252,8 +252,8 @@ typedef enum Outcome { PASSED, FAILED, WITHOUT_RESULT, SKIPPED } Outcome;
 
 typedef struct Case {
     Outcome outcome;
-    char name[2 * CZ_PATH_ROOM + 64];
-    char text[CZ_SENTENCE_ROOM + 3 * CZ_PLACE_ROOM];
+    char name[2 * CZ_PATH_SIZE + 64];
+    char text[CZ_SENTENCE_SIZE + 3 * CZ_PLACE_SIZE];
 } Case;
 
 /* Fills the i-th case of a suite; false to leave it out. */
@@ -298,7 +298,7 @@ static Outcome outcome_of(CzVerdict verdict) {
 
 /* The verdict of a point and what decides it. */
 static void describe_point(const CzSweepPoint *point, Case *its) {
-    char margin[CZ_FIGURE_ROOM];
+    char margin[CZ_FIGURE_SIZE];
     const bool has_margin = !isnan(point->margin);
     if (point->message[0] != '\0' || point->check[0] == '\0')
         snprintf(its->text, sizeof its->text, "%s",
@@ -314,7 +314,7 @@ static void describe_point(const CzSweepPoint *point, Case *its) {
 static bool fill_point(const Suites *suites, int i, Case *its) {
     const CzSweep *sweep = suites->report->sweep;
     const CzSweepPoint *point = &sweep->point[i];
-    char number[CZ_FIGURE_ROOM];
+    char number[CZ_FIGURE_SIZE];
     int n = 0;
     for (int k = 0; k < sweep->n_axis && n < (int)sizeof its->name; k++)
         n += snprintf(its->name + n, sizeof its->name - (size_t)n, "%s%s = %s", k > 0 ? ", " : "",
@@ -343,7 +343,7 @@ static int count_unchecked(const CzSampling *sampling, int c) {
 static void fill_check(const CzSampling *sampling, int c, Case *its) {
     const CzSampledCheck *check = &sampling->check[c];
     const int n_unchecked = count_unchecked(sampling, c);
-    char margin[CZ_FIGURE_ROOM];
+    char margin[CZ_FIGURE_SIZE];
     int n = snprintf(its->text, sizeof its->text, "%d of %d samples fail", check->n_fail,
                      sampling->n_run);
     if (!isnan(check->required))

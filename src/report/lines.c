@@ -73,7 +73,7 @@ static bool read_escape(const char *digits, char *byte) {
 /* Removes a text with its quotes and undoes its escapes. */
 const char *cz_line_text(CzLineCursor *cursor) {
     cz_line_expect(cursor, "\"");
-    char *text = cursor->at, *to = text, what[CZ_FAULT_ROOM];
+    char *text = cursor->at, *to = text, what[CZ_FAULT_SIZE];
     size_t at;
     while (!cursor->failed && *cursor->at != '"') {
         if (strncmp(cursor->at, "\\u", 2) == 0 && read_escape(cursor->at + 2, to)) {

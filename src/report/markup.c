@@ -24,7 +24,7 @@ static void write_escaped(FILE *stream, const char *text) {
 }
 
 static void write_number(FILE *stream, int decimals, double value) {
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     cz_figure_fixed(text, decimals, isfinite(value) ? value : 0);
     if (strchr(text, '.') != NULL && strchr(text, 'e') == NULL) {
         size_t n = strlen(text);

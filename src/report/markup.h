@@ -11,7 +11,7 @@
 #include <stdio.h>
 
 enum {
-    CZ_SENTENCE_ROOM = CZ_MOST_TEXT + 500 /* a sentence with a title or with names in it [byte] */
+    CZ_SENTENCE_SIZE = CZ_MAX_TEXT + 500 /* a sentence with a title or with names in it [byte] */
 };
 
 /* Zero-initialise it and set the stream. */

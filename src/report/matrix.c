@@ -124,8 +124,8 @@ int cz_matrix_deciding(const CzMatrix *matrix, int row) {
 
 /* ---- text ---- */
 
-const char *cz_matrix_text(const CzCheckResult *check, char text[CZ_MATRIX_ROOM]) {
-    char margin[CZ_FIGURE_ROOM];
+const char *cz_matrix_text(const CzCheckResult *check, char text[CZ_MATRIX_SIZE]) {
+    char margin[CZ_FIGURE_SIZE];
     if (check == NULL)
         return "";
     if (check->verdict == CZ_VERDICT_NOT_CHECKED)
@@ -133,7 +133,7 @@ const char *cz_matrix_text(const CzCheckResult *check, char text[CZ_MATRIX_ROOM]
     if (cz_checks_does_not_apply(check))
         return "n/a";
     const bool is_yes = isnan(check->margin);
-    snprintf(text, CZ_MATRIX_ROOM, "%s%s%s", check->verdict == CZ_VERDICT_PROVISIONAL ? "~" : "",
+    snprintf(text, CZ_MATRIX_SIZE, "%s%s%s", check->verdict == CZ_VERDICT_PROVISIONAL ? "~" : "",
              !is_yes                             ? cz_figure_margin(margin, check->margin)
              : cz_verdict_passes(check->verdict) ? "pass"
                                                  : "FAIL",
@@ -152,7 +152,7 @@ static void write_scenarios(const CzMatrix *matrix, CzTerminal *terminal) {
     cz_table_begin(&table, ">;scenario;verdict;>smallest margin;by;where");
     for (int k = 0; k < matrix->n_column; k++) {
         const CzMatrixColumn *column = &matrix->column[k];
-        char text[CZ_MATRIX_ROOM];
+        char text[CZ_MATRIX_SIZE];
         cz_table_put_format(&table, "%d", k + 1);
         cz_table_put(&table, column->name);
         cz_table_put_styled(&table, cz_verdict_word(column->verdict),
@@ -168,7 +168,7 @@ static void write_scenarios(const CzMatrix *matrix, CzTerminal *terminal) {
 /* The columns from `first` up to `end`. */
 static void write_columns(const CzMatrix *matrix, int first, int end, CzTerminal *terminal) {
     CzReportTable table;
-    char head[16], text[CZ_MATRIX_ROOM];
+    char head[16], text[CZ_MATRIX_SIZE];
     cz_table_begin(&table, "criterion");
     for (int k = first; k < end; k++) {
         snprintf(head, sizeof head, ">%d", k + 1);
@@ -186,15 +186,15 @@ static void write_columns(const CzMatrix *matrix, int first, int end, CzTerminal
 }
 
 void cz_matrix_write_text(const CzEvaluation *evaluation, CzTerminal *terminal) {
-    enum { MOST_ACROSS = 10 }; /* that fit beside the longest name */
+    enum { MAX_ACROSS = 10 }; /* that fit beside the longest name */
     CzMatrix matrix;
     terminal->failed |= !cz_matrix_build(&matrix, evaluation);
     if (!terminal->failed && cz_matrix_n_scenario(&matrix) > 1) {
         write_scenarios(&matrix, terminal);
         fputc('\n', terminal->stream);
-        for (int k = 0; k < matrix.n_column; k += MOST_ACROSS)
+        for (int k = 0; k < matrix.n_column; k += MAX_ACROSS)
             write_columns(&matrix, k,
-                          k + MOST_ACROSS < matrix.n_column ? k + MOST_ACROSS : matrix.n_column,
+                          k + MAX_ACROSS < matrix.n_column ? k + MAX_ACROSS : matrix.n_column,
                           terminal);
         fputs(CZ_MATRIX_SIGNS "\n\n", terminal->stream);
     }

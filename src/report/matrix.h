@@ -46,8 +46,8 @@ int cz_matrix_deciding(const CzMatrix *matrix, int row);
     "Smallest margins. ~ limit or scenario not confirmed (PROVISIONAL), ? not checked, n/a does "  \
     "not apply, "                                                                                  \
     "empty: not judged there."
-enum { CZ_MATRIX_ROOM = CZ_FIGURE_ROOM + 4 };
-const char *cz_matrix_text(const CzCheckResult *check, char text[CZ_MATRIX_ROOM]);
+enum { CZ_MATRIX_SIZE = CZ_FIGURE_SIZE + 4 };
+const char *cz_matrix_text(const CzCheckResult *check, char text[CZ_MATRIX_SIZE]);
 CzStyle cz_matrix_style(const CzCheckResult *check);
 
 /* Writes scenarios and matrix as text; nothing for fewer than two scenarios. */

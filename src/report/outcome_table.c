@@ -20,7 +20,7 @@ static void write_objective(const CzEvaluator *evaluator, const CzOutcome *outco
     const bool is_margin = cz_evaluator_maximises_margin(evaluator); /* its negative is minimised */
     const char *unit = is_margin ? NULL : cz_evaluator_objective_unit(evaluator);
     const CzEvaluation *evaluations[2] = {&outcome->start_evaluation, &outcome->best_evaluation};
-    char text[2][CZ_FIGURE_ROOM];
+    char text[2][CZ_FIGURE_SIZE];
     for (int i = 0; i < 2; i++) {
         if (is_margin)
             cz_figure_margin(text[i], -evaluations[i]->objective);
@@ -60,7 +60,7 @@ static void write_unchecked(const CzEvaluation *best, CzTerminal *terminal) {
 
 /* A value or bound of a variable: a bound to its last digit, any other value with six, or with all
  * of them where six digits would look like a bound that it is not at. */
-static const char *number_text(char text[CZ_FIGURE_ROOM], const CzVariableInfo *variable,
+static const char *number_text(char text[CZ_FIGURE_SIZE], const CzVariableInfo *variable,
                                double value) {
     double read;
     if (value == variable->min || value == variable->max)
@@ -100,7 +100,7 @@ void cz_rejected_sentence(const CzReport *report, const CzRejected *rejected, si
                           char *text) {
     const CzEvaluator *evaluator = report->evaluator;
     const CzVerifiedValue *value = &rejected->value;
-    char objective[CZ_FIGURE_ROOM], change[CZ_FIGURE_ROOM];
+    char objective[CZ_FIGURE_SIZE], change[CZ_FIGURE_SIZE];
     if (cz_evaluator_maximises_margin(evaluator))
         cz_figure_margin(objective, -rejected->objective);
     else
@@ -132,7 +132,7 @@ static void write_head(const CzEvaluator *evaluator, const CzOutcome *outcome,
         fprintf(terminal->stream, "; the best so far is %sfeasible",
                 outcome->best_evaluation.violation <= 0 ? "" : "NOT ");
     fputc('\n', terminal->stream);
-    char text[CZ_SENTENCE_ROOM];
+    char text[CZ_SENTENCE_SIZE];
     cz_scenario_use_sentence(outcome, sizeof text, text);
     if (text[0] != '\0')
         fprintf(terminal->stream, "%s\n", text);
@@ -157,7 +157,7 @@ void cz_outcome_begin_variables(CzReportTable *table, const CzReport *report, bo
         const CzVariableInfo *variable = cz_evaluator_variable(report->evaluator, i);
         const double numbers[] = {variable->min, variable->max, outcome->start[i],
                                   outcome->best[i]};
-        char text[CZ_FIGURE_ROOM];
+        char text[CZ_FIGURE_SIZE];
         cz_table_put(table, variable->name);
         cz_table_put(table, variable->unit);
         for (int k = 0; k < 4; k++)
@@ -185,7 +185,7 @@ static void write_matches(const CzOutcome *outcome, CzTerminal *terminal) {
         const CzMatchResult *match = &best->match[i];
         const double numbers[] = {match->is_history ? NAN : match->target, match->tolerance,
                                   i < start->n_match ? start->match[i].value : NAN, match->value};
-        char text[CZ_FIGURE_ROOM + 16], number[CZ_FIGURE_ROOM];
+        char text[CZ_FIGURE_SIZE + 16], number[CZ_FIGURE_SIZE];
         cz_table_put(&table, match->name);
         cz_table_put(&table, match->where);
         cz_table_put(&table, match->unit);
@@ -204,9 +204,9 @@ static void write_matches(const CzOutcome *outcome, CzTerminal *terminal) {
 /* Further parameter sets that fit about as well, a column each. */
 static void write_alternatives(const CzEvaluator *evaluator, const CzOutcome *outcome,
                                CzTerminal *terminal) {
-    enum { MOST_SETS = 5 };
-    const int n_set = outcome->n_alternative < MOST_SETS ? outcome->n_alternative : MOST_SETS;
-    char text[CZ_FIGURE_ROOM];
+    enum { MAX_SETS = 5 };
+    const int n_set = outcome->n_alternative < MAX_SETS ? outcome->n_alternative : MAX_SETS;
+    char text[CZ_FIGURE_SIZE];
     if (n_set == 0) {
         fputs("No other parameter set of this search fits as well.\n\n", terminal->stream);
         return;
@@ -234,7 +234,7 @@ void cz_outcome_put_constraint(CzReportTable *table, const CzEvaluator *evaluato
                                const CzEvaluation *best, int i, double margin) {
     const CzCheckResult *check = best->constraint_check != NULL ? &best->constraint_check[i] : NULL;
     const CzStyle style = best->constraint[i] > 0 ? CZ_STYLE_BAD : CZ_STYLE_PLAIN;
-    char text[CZ_CHECK_ROOM];
+    char text[CZ_CHECK_SIZE];
     cz_table_put_styled(table, cz_evaluator_constraint_name(evaluator, i), style);
     cz_table_put(table, check != NULL ? check->where : "");
     cz_table_put(table, check != NULL ? check->scenario : "");
@@ -250,7 +250,7 @@ static void write_violations(const CzEvaluator *evaluator, const CzOutcome *outc
     const CzEvaluation *best = &outcome->best_evaluation;
     if (best->violation <= 0 || best->n_constraint == best->n_match)
         return; /* the matches of a fit have a table of their own */
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     CzReportTable table;
     cz_table_begin(&table, "violated, worst scenario;" CZ_CONSTRAINT_HEADS ";>scenarios");
     for (int i = 0; i < best->n_constraint; i++) {
@@ -268,7 +268,7 @@ static void write_violations(const CzEvaluator *evaluator, const CzOutcome *outc
 
 /* The worth of limits, or those that conflict, and the smallest relaxation of one. */
 static void write_worth(const CzReport *report, CzTerminal *terminal) {
-    char text[CZ_SENTENCE_ROOM];
+    char text[CZ_SENTENCE_SIZE];
     CzReportTable table;
     if (cz_worth_is_known(report->outcome)) {
         cz_worth_sentence(report, sizeof text, text);
@@ -295,7 +295,7 @@ static double tenths_above(double change) {
 
 /* The result with the largest change, where this exceeds the limit. */
 static void write_worst(const CzVerification *verification, CzVerifyMethod method, FILE *stream) {
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     if (!verification->is_done[method] ||
         verification->largest_change[method] <= verification->limit)
         return;
@@ -307,7 +307,7 @@ static void write_worst(const CzVerification *verification, CzVerifyMethod metho
 }
 
 static void write_verification(const CzVerification *verification, CzTerminal *terminal) {
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     if (verification == NULL)
         return;
     const bool passes = verification->verdict == CZ_VERDICT_PASS;
@@ -326,15 +326,15 @@ static void write_verification(const CzVerification *verification, CzTerminal *t
 
 /* The first designs that were not verified. */
 static void write_rejected(const CzReport *report, CzTerminal *terminal) {
-    enum { MOST_LINES = 4 };
+    enum { MAX_LINES = 4 };
     const int n = report->outcome->n_rejected;
-    char text[CZ_SENTENCE_ROOM];
-    for (int i = 0; i < n && i < MOST_LINES; i++) {
+    char text[CZ_SENTENCE_SIZE];
+    for (int i = 0; i < n && i < MAX_LINES; i++) {
         cz_rejected_sentence(report, &report->outcome->rejected[i], sizeof text, text);
         fprintf(terminal->stream, "%s\n", text);
     }
-    if (n > MOST_LINES)
-        fprintf(terminal->stream, "Not verified: %d more\n", n - MOST_LINES);
+    if (n > MAX_LINES)
+        fprintf(terminal->stream, "Not verified: %d more\n", n - MAX_LINES);
 }
 
 void cz_outcome_write_table(const CzReport *report, CzTerminal *terminal) {

@@ -14,7 +14,7 @@ void cz_page_write_parts(CzPage *page) {
 }
 
 static void write_run(CzPage *page) {
-    char title[CZ_SENTENCE_ROOM];
+    char title[CZ_SENTENCE_SIZE];
     snprintf(title, sizeof title, "%s, %s", cz_problem_title(page->problem),
              page->summary->scenario);
     cz_page_write_head(&page->markup, title);

@@ -143,10 +143,10 @@ void cz_page_event_words(CzEventKind kind, char words[48]);
 void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
                           const CzEvaluation *before);
 /* Address of the report of a scenario, from this page. */
-enum { CZ_ADDRESS_ROOM = 512 };
-void cz_page_address(const CzPage *page, const char *scenario, char address[CZ_ADDRESS_ROOM]);
+enum { CZ_ADDRESS_SIZE = 512 };
+void cz_page_address(const CzPage *page, const char *scenario, char address[CZ_ADDRESS_SIZE]);
 /* A scenario's name as the name of a folder. */
-void cz_page_folder_name(const char *scenario, char name[CZ_NAME_ROOM]);
+void cz_page_folder_name(const char *scenario, char name[CZ_NAME_SIZE]);
 
 /* ---- parts of the report of a search ---- */
 

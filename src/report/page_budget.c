@@ -8,7 +8,7 @@
 #include <math.h>
 
 /* An impulse in kilo-units; one that rounds to zero has no sign. */
-static const char *in_kilo(char text[CZ_FIGURE_ROOM], double impulse) {
+static const char *in_kilo(char text[CZ_FIGURE_SIZE], double impulse) {
     const double value = impulse / CZ_KILO;
     return cz_figure_fixed(text, 1, fabs(value) < 0.05 ? 0 : value);
 }
@@ -16,7 +16,7 @@ static const char *in_kilo(char text[CZ_FIGURE_ROOM], double impulse) {
 static void put_row(CzReportTable *table, const char *name, double moment, double lift, double most,
                     const char *remark) {
     static const CzBar bar = {"budget", NULL, 90, 92, "#d55e00", "#0072b2"};
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     cz_table_put(table, name);
     cz_table_put(table, in_kilo(text, moment));
     cz_table_put_bar(table, &bar, most > 0 ? moment / most : 0); /* of the longest */
@@ -26,7 +26,7 @@ static void put_row(CzReportTable *table, const char *name, double moment, doubl
 
 static void write_car(CzMarkup *markup, const char *car, const CzVehicleBudget *budget) {
     int order[CZ_N_BUDGET];
-    char time[CZ_FIGURE_ROOM];
+    char time[CZ_FIGURE_SIZE];
     const int n = cz_budget_order(budget, order);
     const double most = n > 0 ? fabs(budget->moment[order[0]]) : 0;
     cz_markup_write(markup, "<h3>%s, until its largest %s at %s ms</h3>", car,

@@ -14,9 +14,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOST_NUMBERS = 4, MOST_FAILURES = 50 };
+enum { MAX_NUMBERS = 4, MAX_FAILURES = 50 };
 
-#define MOST_PERCENT 100.0 /* margins below its negative are drawn at it */
+#define MAX_PERCENT 100.0 /* margins below its negative are drawn at it */
 
 /* Points of a figure, and room for them. */
 typedef struct Cloud {
@@ -48,17 +48,17 @@ static double correlation_size(const CzChallenge *challenge, int draw, double *r
 
 /* The numbers with the largest correlations; returns how many. */
 static int choose_numbers(const CzChallenge *challenge, int *draw, double *room, bool *has_memory) {
-    double size[MOST_NUMBERS];
+    double size[MAX_NUMBERS];
     int n = 0;
     for (int d = 0; d < challenge->n_draw; d++) {
         const double own = correlation_size(challenge, d, room, has_memory);
-        int at = n < MOST_NUMBERS ? n++ : MOST_NUMBERS;
+        int at = n < MAX_NUMBERS ? n++ : MAX_NUMBERS;
         for (; at > 0 && size[at - 1] < own; at--)
-            if (at < MOST_NUMBERS) {
+            if (at < MAX_NUMBERS) {
                 size[at] = size[at - 1];
                 draw[at] = draw[at - 1];
             }
-        if (at < MOST_NUMBERS) {
+        if (at < MAX_NUMBERS) {
             size[at] = own;
             draw[at] = d;
         }
@@ -69,7 +69,7 @@ static int choose_numbers(const CzChallenge *challenge, int *draw, double *room,
 /* ---- figures ---- */
 
 static double percent(double margin) {
-    return fmin(fmax(100 * margin, -MOST_PERCENT), MOST_PERCENT); /* NaN becomes a bound */
+    return fmin(fmax(100 * margin, -MAX_PERCENT), MAX_PERCENT); /* NaN becomes a bound */
 }
 
 /* Collects the points that pass or fail, over a number, or over the order for -1. */
@@ -113,8 +113,8 @@ static void write_figure(CzMarkup *markup, const CzChallenge *challenge, int dra
     Cloud passing = {.challenge = challenge, .x = room, .y = room + n};
     Cloud failing = {.challenge = challenge, .x = room + 2 * n, .y = room + 3 * n};
     Cloud progress = {.challenge = challenge, .x = room + 4 * n, .y = room + 5 * n};
-    char label[CZ_SENTENCE_ROOM] = "run",
-         title[CZ_SENTENCE_ROOM] = "Progress of the smallest margin";
+    char label[CZ_SENTENCE_SIZE] = "run",
+         title[CZ_SENTENCE_SIZE] = "Progress of the smallest margin";
     collect(&passing, draw, false);
     collect(&failing, draw, true);
     collect_progress(&progress);
@@ -145,7 +145,7 @@ static void write_figure(CzMarkup *markup, const CzChallenge *challenge, int dra
 }
 
 static void write_figures(CzMarkup *markup, const CzChallenge *challenge) {
-    int draw[MOST_NUMBERS];
+    int draw[MAX_NUMBERS];
     double *room = malloc((6 * (size_t)challenge->n_point + 1) * sizeof *room);
     bool has_memory = room != NULL;
     const int n = has_memory ? choose_numbers(challenge, draw, room, &has_memory) : 0;
@@ -176,7 +176,7 @@ static void write_weak(CzMarkup *markup, const CzReport *report) {
                         : "");
     cz_challenge_begin_weak(&table, challenge, true);
     cz_table_write_page(&table, markup);
-    for (int i = 0, n = 0; i < challenge->n_point && n < MOST_FAILURES; i++)
+    for (int i = 0, n = 0; i < challenge->n_point && n < MAX_FAILURES; i++)
         if (challenge->point[i].message != NULL) {
             n++;
             cz_markup_write(markup, "<p class='fail'>Point %d %s: %s</p>\n", i + 1,
@@ -188,7 +188,7 @@ static void write_weak(CzMarkup *markup, const CzReport *report) {
 
 static void write_checks(CzMarkup *markup, const CzChallenge *challenge) {
     CzReportTable table;
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     cz_markup_write(markup, "<section id='checks'>\n<h2>Checks</h2>\n<p>Margins of the design "
                             "without changes and the smallest ones of the runs of the search, both "
                             "by the limits that hold at points.</p>");
@@ -220,7 +220,7 @@ static void write_numbers(CzMarkup *markup, const CzChallenge *challenge) {
 CzStatus cz_page_write_challenge(const CzReport *report, FILE *stream, CzError *error) {
     const CzChallenge *challenge = report->challenge;
     CzMarkup markup = {.stream = stream};
-    char title[CZ_SENTENCE_ROOM], text[CZ_CHALLENGE_SENTENCE];
+    char title[CZ_SENTENCE_SIZE], text[CZ_CHALLENGE_SENTENCE];
     snprintf(title, sizeof title, "%s, challenged", cz_problem_title(challenge->problem));
     cz_page_write_head(&markup, title);
     cz_markup_write(&markup, "<h1>%s</h1>", title);

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_LINKS = 12 }; /* to other reports that are shown without a click */
+enum { MAX_LINKS = 12 }; /* to other reports that are shown without a click */
 
 void cz_page_write_checks(CzMarkup *markup, const CzEvaluation *evaluation,
                           const CzEvaluation *before) {
@@ -42,7 +42,7 @@ static void write_others(CzPage *page) {
     const char *between = "";
     for (int i = 0; i < page->evaluation->n_run; i++) {
         const CzRunSummary *run = cz_kept_run(page->evaluation, i);
-        char address[CZ_ADDRESS_ROOM];
+        char address[CZ_ADDRESS_SIZE];
         if (run == NULL || i == page->scenario)
             continue;
         cz_page_address(page, run->scenario, address);
@@ -63,13 +63,13 @@ static void write_scenarios(CzPage *page) {
                     page->summary->scenario, page->is_top ? ", which has the smallest margin" : "");
     if (!page->is_top)
         cz_markup_write(markup, " <a href='../report.html'>Report of all scenarios</a>.");
-    if (n_other <= MOST_LINKS) {
+    if (n_other <= MAX_LINKS) {
         cz_markup_write(markup, " Reports of the others: ");
         write_others(page);
         cz_markup_write(markup, ".");
     }
     cz_markup_write(markup, "</p>\n");
-    if (n_other <= MOST_LINKS)
+    if (n_other <= MAX_LINKS)
         return;
     cz_markup_write(markup, "<details><summary>Reports of the other %d</summary>", n_other);
     write_others(page);
@@ -79,7 +79,7 @@ static void write_scenarios(CzPage *page) {
 /* Failure, override and accuracy of the run. */
 static void write_caution(CzPage *page) {
     const CzRunSummary *run = page->summary;
-    char number[CZ_FIGURE_ROOM], step[CZ_FIGURE_ROOM], balance[CZ_FIGURE_ROOM];
+    char number[CZ_FIGURE_SIZE], step[CZ_FIGURE_SIZE], balance[CZ_FIGURE_SIZE];
     CzMarkup *markup = &page->markup;
     if (run->status != CZ_OK)
         cz_markup_write(markup, "<p class='fail'>This run failed: %s</p>", run->failure);
@@ -135,7 +135,7 @@ static void write_count(CzMarkup *markup, const CzEvaluation *evaluation) {
 void cz_page_write_verdict(CzPage *page) {
     CzMarkup *markup = &page->markup;
     const CzEvaluation *evaluation = page->evaluation;
-    char remark[CZ_SCREENING_ROOM];
+    char remark[CZ_SCREENING_SIZE];
     cz_markup_write(markup, "<header><h1>%s</h1><p class='banner %s'>%s%s</p>",
                     cz_problem_title(page->problem), cz_verdict_class(evaluation->verdict),
                     cz_verdict_title(evaluation->verdict),

@@ -13,7 +13,7 @@
 #include <string.h>
 
 enum { INPUT_POINTS = 600 };
-#define INPUT_ROOM 1.5 /* input curves end at this share of the largest force of the run */
+#define INPUT_SIZE 1.5 /* input curves end at this share of the largest force of the run */
 
 /* The problem's scenario of that name; the runs of an evaluation may be fewer. */
 static int scenario_named(const CzProblem *problem, const char *name) {
@@ -45,7 +45,7 @@ static CzStatus collect_input(const CzPage *page, int interface, CzInputCurve *i
     double *y = x + INPUT_POINTS;
     CZ_TRY(cz_input_curve(page->model, interface, longest / CZ_MILLI_PER_UNIT, INPUT_POINTS, x, y,
                           error));
-    const double highest = INPUT_ROOM * largest(force, page->n_sample);
+    const double highest = INPUT_SIZE * largest(force, page->n_sample);
     for (int i = 0; i < INPUT_POINTS; i++) {
         x[i] *= CZ_MILLI_PER_UNIT;
         y[i] = y[i] / CZ_KILO < highest ? y[i] / CZ_KILO : NAN;
@@ -94,7 +94,7 @@ CzStatus cz_page_begin(CzPage *page, CzError *error) {
 }
 
 CzStatus cz_page_collect_parts(CzPage *page, CzError *error) {
-    page->fitted = calloc(CZ_MOST_CHART_CURVES, sizeof *page->fitted);
+    page->fitted = calloc(CZ_MAX_CHART_CURVES, sizeof *page->fitted);
     if (page->fitted == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report");
     page->measured = page->fitted;

@@ -61,8 +61,8 @@ static void write_numbers(CzMarkup *markup, const CzReport *report, bool of_inte
 static void write_overlay(CzMarkup *markup, const CzReport *report, const char *title,
                           CzChannel channel, int place) {
     const CzRunSummary *first = cz_compared_run(report, 0);
-    CzSeries series[CZ_MOST_COMPARED];
-    CzPlotBand band[CZ_MOST_COMPARED];
+    CzSeries series[CZ_MAX_COMPARED];
+    CzPlotBand band[CZ_MAX_COMPARED];
     char label[2][CZ_DRAWN_LABEL];
     int n_series = 0, n_band = 0;
     for (int i = 0; i < report->n_compared; i++) {
@@ -120,7 +120,7 @@ static void write_overlays(CzPage *page, const CzReport *report) {
 
 static void write_page(CzPage *page, const CzReport *report) {
     CzMarkup *markup = &page->markup;
-    char title[CZ_SENTENCE_ROOM];
+    char title[CZ_SENTENCE_SIZE];
     snprintf(title, sizeof title, "%s, compared", cz_problem_title(page->problem));
     cz_page_write_head(markup, title);
     cz_markup_write(markup, "<h1>%s</h1><p>Figures are those of scenario %s.</p>", title,
@@ -146,7 +146,7 @@ static void write_page(CzPage *page, const CzReport *report) {
 
 CzStatus cz_page_write_comparison(const CzReport *report, FILE *stream, CzError *error) {
     const CzReportRun *run = report->compared;
-    CzPageOther other[CZ_MOST_COMPARED];
+    CzPageOther other[CZ_MAX_COMPARED];
     if (report->n_compared < 1 || cz_compared_run(report, 0) == NULL)
         return cz_fail(error, CZ_STATUS_INPUT, "no run was kept to compare");
     CzPage page = {.problem = run[0].problem,

@@ -43,7 +43,7 @@ static void put_row(CzReportTable *table, const char *name, const char *low, con
 /* Peak, mean force, stroke and energy of both edges. */
 static void write_summary(CzMarkup *markup, const CzCorridor *corridor) {
     CzReportTable table;
-    char text[3][CZ_FIGURE_ROOM];
+    char text[3][CZ_FIGURE_SIZE];
     const double stroke = corridor->stroke[corridor->n_point - 1];
     const double factor[] = {1 - corridor->edge[0].width, 1, 1 + corridor->edge[1].width};
     cz_table_begin(&table, "of one device;>lower;>nominal;>upper");
@@ -113,7 +113,7 @@ static void write_limits(CzMarkup *markup, const CzCorridor *corridor) {
 static void write_trains(CzMarkup *markup, const CzCorridor *corridor) {
     const CzInput *input = cz_problem_input(corridor->problem);
     CzReportTable table;
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     cz_table_begin(&table, "train;>vehicles;>mass [t];>payload [t]");
     for (int i = 0; i < input->n_trains; i++) {
         const CzTrain *train = &input->trains[i];
@@ -131,7 +131,7 @@ static void write_trains(CzMarkup *markup, const CzCorridor *corridor) {
 }
 
 static void put_number(CzReportTable *table, double value, double scale) {
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     cz_table_put(table, isnan(value) ? "" : cz_figure_digits(text, 5, scale * value));
 }
 
@@ -226,7 +226,7 @@ static void write_open(CzMarkup *markup, const CzCorridor *corridor) {
 CzStatus cz_page_write_corridor(const CzReport *report, FILE *stream, CzError *error) {
     const CzCorridor *corridor = report->corridor;
     CzMarkup markup = {.stream = stream};
-    char title[CZ_SENTENCE_ROOM];
+    char title[CZ_SENTENCE_SIZE];
     snprintf(title, sizeof title, "%s: corridor of %s", cz_problem_title(corridor->problem),
              corridor->path);
     cz_page_write_head(&markup, title);

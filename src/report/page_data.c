@@ -20,8 +20,8 @@ enum {
     EVEN_SAMPLES = 240,
     DIGITS = 5,
     FINEST_TIME = 6,    /* decimals of a millisecond */
-    PAGE_ROOM = 900000, /* largest size of a page that leaves out rows [byte]; ours */
-    FOOT_ROOM = 1000    /* size of what follows the numbers, without the script [byte] */
+    PAGE_SIZE = 900000, /* largest size of a page that leaves out rows [byte]; ours */
+    FOOT_SIZE = 1000    /* size of what follows the numbers, without the script [byte] */
 };
 
 /* Largest number of decimals of the channels in the data of the page, 0 for other channels; fewer
@@ -171,7 +171,7 @@ static void write_curve(FILE *stream, const CzPage *page, CzDrawn drawn, int pla
                         const Rows *rows) {
     const double *value = cz_page_values(page, drawn, place);
     const int decimals = decimals_for(drawn, value, rows->n);
-    char name[CZ_CHANNEL_ROOM];
+    char name[CZ_CHANNEL_SIZE];
     fputs(",\n", stream);
     write_json_text(stream, cz_drawn_name(page->summary, drawn, place, name));
     fprintf(stream, ":[%d,\"", decimals);
@@ -201,7 +201,7 @@ static bool make_text(const CzPage *page, const Rows *rows, CzMemoryText *text) 
 /* Makes the text of all rows, or of as many first rows as fit into the page. False without memory.
  */
 static bool fill(const CzPage *page, Rows *rows, CzMemoryText *text) {
-    const size_t taken = FOOT_ROOM + strlen(cz_report_js) + page->text.n;
+    const size_t taken = FOOT_SIZE + strlen(cz_report_js) + page->text.n;
     const int fine = rows->n / 64 + 1;
     int most = rows->n + 1, least = 0; /* rows that do not fit, rows that fit */
     bool is_whole = true;
@@ -209,7 +209,7 @@ static bool fill(const CzPage *page, Rows *rows, CzMemoryText *text) {
          rows->n_first = (least + most) / 2) {
         cz_memory_text_free(text);
         is_whole = make_text(page, rows, text);
-        if (taken + text->n <= PAGE_ROOM)
+        if (taken + text->n <= PAGE_SIZE)
             least = rows->n_first;
         else
             most = rows->n_first;
@@ -223,7 +223,7 @@ static bool fill(const CzPage *page, Rows *rows, CzMemoryText *text) {
 static void write_rows(CzPage *page, const Rows *rows) {
     CzMarkup *markup = &page->markup;
     const double spacing = (page->time[rows->n - 1] - page->time[0]) / (EVEN_SAMPLES - 1);
-    char until[CZ_FIGURE_ROOM], every[CZ_FIGURE_ROOM];
+    char until[CZ_FIGURE_SIZE], every[CZ_FIGURE_SIZE];
     cz_markup_write(markup, "<p class='script'>Cursor and animation cover ");
     if (rows->n_first == rows->n) {
         cz_markup_write(markup, "all %d rows of channels.csv.</p>\n", rows->n);
@@ -242,7 +242,7 @@ static void write_events(const CzPage *page, FILE *stream) {
     fputs("\"events\":[", stream);
     for (int i = 0; i < page->summary->n_event; i++) {
         const CzEvent *event = &page->summary->event[i];
-        char time[CZ_FIGURE_ROOM], words[48], text[CZ_WHERE_ROOM + 48];
+        char time[CZ_FIGURE_SIZE], words[48], text[CZ_WHERE_SIZE + 48];
         cz_page_event_words(event->what, words);
         snprintf(text, sizeof text, "%s %s", words, event->where);
         fprintf(stream, "%s[%s,", i > 0 ? "," : "",

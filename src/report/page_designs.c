@@ -15,7 +15,7 @@
 #define SIDE 44.0  /* next to the first and last axis */
 #define APART 84.0 /* of two axes */
 
-enum { MOST_LINES = 400, MOST_COLUMNS = 4 };
+enum { MAX_LINES = 400, MAX_COLUMNS = 4 };
 
 /* ---- parallel coordinates ---- */
 
@@ -59,7 +59,7 @@ static void write_designs(CzMarkup *markup, const Axes *axes, bool feasible, con
         n += outcome->trial[i].feasible == feasible && isfinite(outcome->trial[i].objective);
     if (n == 0)
         return;
-    const long most = n < MOST_LINES / 2 ? n : MOST_LINES / 2;
+    const long most = n < MAX_LINES / 2 ? n : MAX_LINES / 2;
     cz_markup_write(markup, "<path stroke='%s' stroke-opacity='%s' d='",
                     cz_plot_colour(feasible ? 0 : CZ_PLOT_QUIET), feasible ? ".55" : ".4");
     for (long i = 0; i < outcome->n_trial; i++) {
@@ -79,7 +79,7 @@ static void write_axis(CzMarkup *markup, const Axes *axes, int axis) {
     const CzVariableInfo *variable =
         is_objective ? NULL : cz_evaluator_variable(axes->evaluator, axis);
     const double x = axis_x(axis);
-    char text[CZ_FIGURE_ROOM + 8];
+    char text[CZ_FIGURE_SIZE + 8];
     cz_markup_write(markup, "<path d='M%ld %ldV%ld' stroke='currentColor'/>", lround(x),
                     lround(TOP), lround(TOP + HEIGHT));
     cz_svg_text(markup, x, TOP - 7, "middle",
@@ -190,7 +190,7 @@ int cz_page_next_constraint(const CzEvaluation *evaluation, int n_listed, const 
 }
 
 static void put_change(CzReportTable *table, double change) {
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     cz_table_put(table, !isfinite(change)     ? "-"
                         : fabs(change) < 5e-5 ? "0"
                                               : cz_figure_margin(text, change));
@@ -201,7 +201,7 @@ static void put_sensitivity(CzReportTable *table, const CzReport *report, int va
     const CzOutcome *outcome = report->outcome;
     const CzVariableInfo *info = cz_evaluator_variable(report->evaluator, variable);
     const int n_constraint = outcome->best_evaluation.n_constraint;
-    char number[CZ_FIGURE_ROOM], text[CZ_FIGURE_ROOM + 40];
+    char number[CZ_FIGURE_SIZE], text[CZ_FIGURE_SIZE + 40];
     cz_table_put(table, info->name);
     snprintf(text, sizeof text, "%s%s %.30s",
              outcome->sensitivity_increment[variable] > 0 ? "+" : "",
@@ -218,7 +218,7 @@ static void put_sensitivity(CzReportTable *table, const CzReport *report, int va
 }
 
 static void add_head(CzReportTable *table, const char *name) {
-    char head[CZ_SENTENCE_ROOM];
+    char head[CZ_SENTENCE_SIZE];
     snprintf(head, sizeof head, ">%s", name);
     cz_table_head(table, head);
 }
@@ -228,8 +228,8 @@ void cz_page_write_sensitivities(CzMarkup *markup, const CzReport *report) {
     const CzOutcome *outcome = report->outcome;
     if (outcome->sensitivity_increment == NULL)
         return;
-    int column[MOST_COLUMNS] = {0}, n_column = 0;
-    while (n_column < MOST_COLUMNS) {
+    int column[MAX_COLUMNS] = {0}, n_column = 0;
+    while (n_column < MAX_COLUMNS) {
         column[n_column] = cz_page_next_constraint(&outcome->best_evaluation, n_column, column);
         if (column[n_column] < 0)
             break;

@@ -12,7 +12,7 @@ static void write_titled(const CzPage *page, CzChart chart, int index, const cha
 }
 
 void cz_page_write_figure(CzPage *page, CzChart chart, int index) {
-    char title[CZ_SENTENCE_ROOM];
+    char title[CZ_SENTENCE_SIZE];
     cz_chart_title(page, chart, index, sizeof title, title);
     write_titled(page, chart, index, title, &page->markup);
 }
@@ -25,7 +25,7 @@ static void write_all(CzPage *page, CzChart chart) {
 /* Distribution of energy in the other runs, such as that of the design before. */
 static void write_other_shares(CzPage *page) {
     for (int i = 0; i < page->n_other; i++) {
-        char title[CZ_SENTENCE_ROOM];
+        char title[CZ_SENTENCE_SIZE];
         CzPage beside = *page;
         beside.summary = cz_run_summary(page->other[i].run);
         snprintf(title, sizeof title, "The same, %s", page->other[i].label);

@@ -23,7 +23,7 @@ void cz_page_write_head(CzMarkup *markup, const char *title) {
 }
 
 void cz_page_write_document(CzMarkup *markup, const CzProblem *problem) {
-    char text[CZ_DOCUMENT_ROOM];
+    char text[CZ_DOCUMENT_SIZE];
     cz_markup_write(markup, "<dl class='document'>");
     for (int i = 0; i < CZ_N_DOCUMENT_LINE; i++) {
         const char *line = cz_document_text(problem, i, text);

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_SOURCE_LINES = 600 };
+enum { MAX_SOURCE_LINES = 600 };
 
 static bool is_bad(CzEventKind what) {
     return what == CZ_EVENT_BOTTOMED_OUT || what == CZ_EVENT_OVERRIDE ||
@@ -39,7 +39,7 @@ void cz_page_write_events(CzPage *page) {
     for (int i = 0; i < run->n_event; i++) {
         const CzEvent *event = &run->event[i];
         const bool has_interface = event->interface >= 0 && event->interface < run->n_interface;
-        char time[CZ_FIGURE_ROOM], what[48];
+        char time[CZ_FIGURE_SIZE], what[48];
         cz_page_event_words(event->what, what);
         cz_table_put(&table, cz_figure_fixed(time, 1, event->time * CZ_MILLI_PER_UNIT));
         cz_table_put_styled(&table, what, is_bad(event->what) ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
@@ -133,10 +133,10 @@ static void write_sources(CzPage *page) {
          source = source->next) {
         cz_markup_write(markup, "<details><summary>%s</summary><pre>",
                         cz_problem_reported_name(page->problem, source->name));
-        for (int i = 0; i < source->n_line && i < MOST_SOURCE_LINES; i++)
+        for (int i = 0; i < source->n_line && i < MAX_SOURCE_LINES; i++)
             cz_markup_write(markup, "%s\n", source->line[i]);
-        if (source->n_line > MOST_SOURCE_LINES)
-            cz_markup_write(markup, "... and %d lines more", source->n_line - MOST_SOURCE_LINES);
+        if (source->n_line > MAX_SOURCE_LINES)
+            cz_markup_write(markup, "... and %d lines more", source->n_line - MAX_SOURCE_LINES);
         cz_markup_write(markup, "</pre></details>\n");
     }
 }

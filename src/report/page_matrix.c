@@ -21,7 +21,7 @@ static void put_verdicts(CzReportTable *table, const CzPage *page, const Columns
     cz_table_put(table, "verdict");
     for (int k = columns->begin; k < columns->end; k++) {
         const CzMatrixColumn *column = &page->matrix->column[k];
-        char address[CZ_ADDRESS_ROOM];
+        char address[CZ_ADDRESS_SIZE];
         cz_table_put_styled(table, cz_verdict_word(column->verdict),
                             cz_verdict_style(column->verdict));
         if (!column->is_design) {
@@ -35,7 +35,7 @@ static void put_verdicts(CzReportTable *table, const CzPage *page, const Columns
 
 /* The figure that decides a row. */
 static void put_figure(CzReportTable *table, const CzPage *page, int row) {
-    char text[CZ_SENTENCE_ROOM], address[32];
+    char text[CZ_SENTENCE_SIZE], address[32];
     const int at = page->deciding->of_row[row];
     if (at < 0) {
         cz_table_put(table, "");
@@ -53,7 +53,7 @@ static void put_row(CzReportTable *table, const CzPage *page, const Columns *col
     cz_table_put(table, matrix->row[row]);
     for (int k = columns->begin; k < columns->end; k++) {
         const CzCheckResult *check = cz_matrix_check(matrix, row, k);
-        char text[CZ_MATRIX_ROOM], address[32];
+        char text[CZ_MATRIX_SIZE], address[32];
         cz_table_put_styled(table, cz_matrix_text(check, text), cz_matrix_style(check));
         if (check == NULL || check->has_no_run) /* one line for all of the scenario */
             continue;
@@ -71,7 +71,7 @@ static void write_columns(CzPage *page, const Columns *columns) {
     cz_table_begin(&table, "criterion");
     table.class_name = "matrix cards";
     for (int k = columns->begin; k < columns->end; k++) {
-        char head[CZ_LABEL_ROOM];
+        char head[CZ_LABEL_SIZE];
         snprintf(head, sizeof head, ">%.*s", (int)sizeof head - 2, matrix->column[k].name);
         cz_table_head(&table, head);
     }
@@ -84,15 +84,15 @@ static void write_columns(CzPage *page, const Columns *columns) {
 }
 
 void cz_page_write_matrix(CzPage *page) {
-    enum { MOST_ACROSS = 16 }; /* more are in further tables */
+    enum { MAX_ACROSS = 16 }; /* more are in further tables */
     if (!cz_page_has_matrix(page))
         return;
     const int n_column = page->matrix->n_column;
     cz_markup_write(&page->markup, "<section id='matrix'>\n<h2>Criteria and scenarios</h2>\n"
                                    "<p>" CZ_MATRIX_SIGNS " A verdict leads to the report of its "
                                    "scenario, a margin to its check.</p>\n");
-    for (int k = 0; k < n_column; k += MOST_ACROSS) {
-        Columns columns = {.begin = k, .end = k + MOST_ACROSS};
+    for (int k = 0; k < n_column; k += MAX_ACROSS) {
+        Columns columns = {.begin = k, .end = k + MAX_ACROSS};
         columns.end = columns.end < n_column ? columns.end : n_column;
         columns.has_figures = page->deciding != NULL && columns.end == n_column;
         write_columns(page, &columns);
@@ -110,7 +110,7 @@ bool cz_page_has_matrix(const CzPage *page) {
 static void write_caption(CzPage *page, int at) {
     const CzDecidingFigure *figure = &page->deciding->figure[at];
     CzMarkup *markup = &page->markup;
-    char title[CZ_SENTENCE_ROOM];
+    char title[CZ_SENTENCE_SIZE];
     const char *between = ": ";
     cz_chart_title(figure->page, figure->chart, figure->index, sizeof title, title);
     cz_markup_write(markup, "<figcaption>%s, %s", title, figure->page->summary->scenario);

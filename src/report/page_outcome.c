@@ -21,19 +21,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_PERCENT 100.0 /* larger margins and violations are drawn at this */
+#define MAX_PERCENT 100.0 /* larger margins and violations are drawn at this */
 
-enum { MOST_CONSTRAINTS = 8 }; /* most constraints in the table of active ones */
+enum { MAX_CONSTRAINTS = 8 }; /* most constraints in the table of active ones */
 
 static void write_banner(CzMarkup *markup, const CzReport *report) {
     const CzEvaluator *evaluator = report->evaluator;
     const CzOutcome *outcome = report->outcome;
-    char before[CZ_FIGURE_ROOM], after[CZ_FIGURE_ROOM];
+    char before[CZ_FIGURE_SIZE], after[CZ_FIGURE_SIZE];
     const double start = outcome->start_evaluation.objective;
     const double best = outcome->best_evaluation.objective;
     const char *given = cz_evaluator_objective_unit(evaluator), *unit = given != NULL ? given : "";
     const CzVerdict verdict = outcome->best_evaluation.verdict;
-    char remark[CZ_SCREENING_ROOM];
+    char remark[CZ_SCREENING_SIZE];
     const bool is_feasible = outcome->status == CZ_OUTCOME_FEASIBLE;
     const bool is_passed = is_feasible && verdict == CZ_VERDICT_PASS;
     const bool adds_verdict = is_feasible && !is_passed && !cz_evaluator_is_fit(evaluator);
@@ -48,7 +48,7 @@ static void write_banner(CzMarkup *markup, const CzReport *report) {
                     adds_verdict ? cz_verdict_title(verdict) : "");
     cz_markup_write(markup, "<p>%ld evaluation%s: %s.</p>", outcome->n_evaluation,
                     outcome->n_evaluation == 1 ? "" : "s", outcome->why_stopped);
-    char use[CZ_SENTENCE_ROOM];
+    char use[CZ_SENTENCE_SIZE];
     cz_scenario_use_sentence(outcome, sizeof use, use);
     if (use[0] != '\0')
         cz_markup_write(markup, "<p>%s</p>", use);
@@ -96,13 +96,13 @@ static double *make_course(const CzReport *report) {
     for (long i = 0; course != NULL && i < n; i++) {
         const CzTrial *trial = &report->outcome->trial[i];
         const double plain = trial->objective * sign, percent = 100 * trial->violation;
-        const double value = is_margin && plain < -MOST_PERCENT ? -MOST_PERCENT : plain;
+        const double value = is_margin && plain < -MAX_PERCENT ? -MAX_PERCENT : plain;
         if (trial->feasible && (isnan(best) || value * sign < best * sign))
             best = value;
         course[i] = (double)i + 1;
         course[n + i] = value;
         course[2 * n + i] = best;
-        course[3 * n + i] = percent > MOST_PERCENT ? MOST_PERCENT : percent; /* NaN: a gap */
+        course[3 * n + i] = percent > MAX_PERCENT ? MAX_PERCENT : percent; /* NaN: a gap */
     }
     return course;
 }
@@ -111,7 +111,7 @@ static CzStatus write_search(CzMarkup *markup, const CzReport *report, CzError *
     const int n = (int)report->outcome->n_trial;
     const bool is_margin = cz_evaluator_maximises_margin(report->evaluator);
     const char *unit = cz_evaluator_objective_unit(report->evaluator);
-    char label[CZ_PATH_ROOM + 24] = "smallest margin [%]";
+    char label[CZ_PATH_SIZE + 24] = "smallest margin [%]";
     if (n < 2)
         return CZ_OK;
     double *x = make_course(report);
@@ -154,7 +154,7 @@ static CzStatus write_search(CzMarkup *markup, const CzReport *report, CzError *
 
 /* The worth of limits, or those that conflict, and the smallest relaxation of one. */
 static void write_worth(CzMarkup *markup, const CzReport *report) {
-    char text[CZ_SENTENCE_ROOM];
+    char text[CZ_SENTENCE_SIZE];
     CzReportTable table;
     if (cz_worth_is_known(report->outcome)) {
         cz_worth_sentence(report, sizeof text, text);
@@ -181,8 +181,8 @@ static void write_active(CzMarkup *markup, const CzReport *report) {
                     "<p>The most critical constraints; a negative margin is violated.</p>");
     cz_table_begin(&table, "constraint;" CZ_CONSTRAINT_HEADS);
     table.class_name = "cards";
-    int listed[MOST_CONSTRAINTS];
-    for (int n = 0; n < MOST_CONSTRAINTS; n++) {
+    int listed[MAX_CONSTRAINTS];
+    for (int n = 0; n < MAX_CONSTRAINTS; n++) {
         listed[n] = cz_page_next_constraint(best, n, listed);
         if (listed[n] < 0)
             break;
@@ -216,7 +216,7 @@ static CzStatus write_values(CzMarkup *markup, const CzReport *report, CzError *
 static void write_verification(CzMarkup *markup, const CzReport *report) {
     const CzOutcome *outcome = report->outcome;
     const CzVerification *verification = outcome->verification;
-    char limit[CZ_FIGURE_ROOM], text[CZ_SENTENCE_ROOM];
+    char limit[CZ_FIGURE_SIZE], text[CZ_SENTENCE_SIZE];
     cz_markup_write(markup, "<section id='verification'>\n"
                             "<h2>Verification of the best design</h2>\n");
     if (verification == NULL) {
@@ -246,7 +246,7 @@ static void write_verification(CzMarkup *markup, const CzReport *report) {
 static CzStatus write_page(CzPage *page, const CzReport *report, CzError *error) {
     const CzOutcome *outcome = report->outcome;
     CzMarkup *markup = &page->markup;
-    char title[CZ_SENTENCE_ROOM];
+    char title[CZ_SENTENCE_SIZE];
     snprintf(title, sizeof title, "%s, optimised", cz_problem_title(page->problem));
     cz_page_write_head(markup, title);
     write_banner(markup, report);

@@ -88,7 +88,7 @@ static void write_front(const CzPareto *pareto, const Drawn *drawn, bool is_figu
                        [DOUBTFUL] = {"not verified", 4, CZ_SERIES_RINGS},
                        [VIOLATING] = {"violates a limit", 1, CZ_SERIES_CROSSES}};
     CzSeries series[N_GROUP + 2];
-    char label[2][CZ_SENTENCE_ROOM];
+    char label[2][CZ_SENTENCE_SIZE];
     int n = 0;
     series[n++] = (CzSeries){.n = drawn->n[ON_FRONT],
                              .x = drawn->x[ON_FRONT],
@@ -152,10 +152,10 @@ CzStatus cz_report_write_front(const CzPareto *pareto, FILE *stream, CzError *er
 /* The designs of the points: a row per variable. */
 static void write_designs(const CzPareto *pareto, CzMarkup *markup) {
     CzReportTable table;
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     cz_table_begin(&table, "point");
-    for (int i = 0; i < pareto->n_variable && i + 1 < CZ_MOST_COLUMNS; i++) {
-        char head[CZ_SENTENCE_ROOM];
+    for (int i = 0; i < pareto->n_variable && i + 1 < CZ_MAX_COLUMNS; i++) {
+        char head[CZ_SENTENCE_SIZE];
         snprintf(head, sizeof head, ">%s", cz_evaluator_variable(pareto->evaluator, i)->name);
         cz_table_head(&table, head);
     }
@@ -165,7 +165,7 @@ static void write_designs(const CzPareto *pareto, CzMarkup *markup) {
         if (point->x == NULL)
             continue;
         cz_table_put_format(&table, "%d", k + 1);
-        for (int i = 0; i < pareto->n_variable && i + 1 < CZ_MOST_COLUMNS; i++) {
+        for (int i = 0; i < pareto->n_variable && i + 1 < CZ_MAX_COLUMNS; i++) {
             const CzVariableInfo *info = cz_evaluator_variable(pareto->evaluator, i);
             cz_table_put(&table, info->n_choice > 0 ? info->choice[(int)point->x[i]]
                                                     : cz_figure_digits(text, 6, point->x[i]));
@@ -178,7 +178,7 @@ CzStatus cz_page_write_pareto(const CzPareto *pareto, const CzProblem *problem, 
                               CzError *error) {
     CzMarkup markup = {.stream = stream};
     CzReportTable table;
-    char text[CZ_SENTENCE_ROOM];
+    char text[CZ_SENTENCE_SIZE];
     snprintf(text, sizeof text, "%s, front", cz_problem_title(problem));
     cz_page_write_head(&markup, text);
     cz_markup_write(&markup, "<h1>%s</h1>", text);

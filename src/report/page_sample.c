@@ -14,14 +14,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_HISTOGRAMS = 6, MOST_TORNADOES = 4, MOST_FAILURES = 50 };
+enum { MAX_HISTOGRAMS = 6, MAX_TORNADOES = 4, MAX_FAILURES = 50 };
 
 static bool has_figures(const CzSampledCheck *check) {
     return !check->is_flag && !isnan(check->margin.quantile[1]);
 }
 
 static void write_banner(CzMarkup *markup, const CzSampling *sampling) {
-    char text[CZ_SAMPLE_SENTENCE], remark[CZ_SCREENING_ROOM];
+    char text[CZ_SAMPLE_SENTENCE], remark[CZ_SCREENING_SIZE];
     const CzVerdict verdict = sampling->judgement;
     cz_markup_write(markup, "<header><p class='banner %s'>%s%s</p></header>\n",
                     cz_verdict_class(verdict), cz_verdict_title(verdict),
@@ -105,7 +105,7 @@ static void write_matrix(CzMarkup *markup, const CzSampling *sampling, const int
 static void put_worst(CzReportTable *table, const CzReport *report, int k) {
     const CzSampling *sampling = report->sampling;
     const CzSample *sample = &sampling->sample[k];
-    char text[CZ_FIGURE_ROOM], file[CZ_REPLAY_ROOM];
+    char text[CZ_FIGURE_SIZE], file[CZ_REPLAY_SIZE];
     cz_replay_name(k, file);
     cz_table_put(table, cz_figure_digits(text, 9, k + 1));
     cz_table_put(table, sample->check >= 0 ? sampling->check[sample->check].name
@@ -127,7 +127,7 @@ static void write_worst(CzMarkup *markup, const CzReport *report) {
         if (cz_replay_is_written(sampling, k))
             put_worst(&table, report, k);
     cz_table_write_page(&table, markup);
-    for (int k = 0, n = 0; k < sampling->n_sample && n < MOST_FAILURES; k++)
+    for (int k = 0, n = 0; k < sampling->n_sample && n < MAX_FAILURES; k++)
         if (sampling->sample[k].message != NULL) {
             n++;
             cz_markup_write(markup, "<p class='fail'>Sample %d %s: %s</p>\n", k + 1,
@@ -147,14 +147,14 @@ static void write_draws(CzMarkup *markup, const CzSampling *sampling) {
 
 static void write_parts(CzMarkup *markup, const CzReport *report, const int *order) {
     const CzSampling *sampling = report->sampling;
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     write_nav(markup);
     write_checks(markup, sampling, order);
     cz_markup_write(markup,
                     "<section id='margins'>\n<h2>Margins</h2>\n<p>The checks that fail most often, "
                     "or have the smallest margins, each in its worst scenario. Margins below -100 "
                     "%% and runs that failed are drawn at -100 %%.</p>");
-    write_figures(markup, sampling, order, MOST_HISTOGRAMS, cz_sample_draw_histogram);
+    write_figures(markup, sampling, order, MAX_HISTOGRAMS, cz_sample_draw_histogram);
     cz_markup_write(
         markup,
         "<section id='drivers'>\n<h2>Rank correlations</h2>\n<p>Rank correlation (Spearman) of "
@@ -162,7 +162,7 @@ static void write_parts(CzMarkup *markup, const CzReport *report, const int *ord
         "random number with the margin. Green, to the right: the margin grows with the number; "
         "orange, to the left: it falls. A correlation below %s may be chance.</p>",
         cz_figure_fixed(text, 2, fmin(2 / sqrt(fmax(sampling->n_run - 1, 1)), 1)));
-    write_figures(markup, sampling, order, MOST_TORNADOES, cz_sample_draw_tornado);
+    write_figures(markup, sampling, order, MAX_TORNADOES, cz_sample_draw_tornado);
     write_matrix(markup, sampling, order);
     cz_markup_write(markup, "<section id='convergence'>\n<h2>Number of samples</h2>\n"
                             "<div class='figures'>");
@@ -174,7 +174,7 @@ static void write_parts(CzMarkup *markup, const CzReport *report, const int *ord
 CzStatus cz_page_write_sample(const CzReport *report, FILE *stream, CzError *error) {
     const CzSampling *sampling = report->sampling;
     CzMarkup markup = {.stream = stream};
-    char title[CZ_SENTENCE_ROOM];
+    char title[CZ_SENTENCE_SIZE];
     int *order = cz_sample_order(sampling);
     if (order == NULL)
         return cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the report");

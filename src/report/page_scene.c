@@ -27,7 +27,7 @@ static int sample_of(const CzPage *page, int interface, int frame) {
 /* Time and force, as the title of a frame. */
 static void name_frame(const CzPage *page, int interface, int sample, size_t room, char *title) {
     const double *force = cz_page_values(page, CZ_DRAWN_INTERFACE_FORCE, interface);
-    char time[CZ_FIGURE_ROOM], number[CZ_FIGURE_ROOM];
+    char time[CZ_FIGURE_SIZE], number[CZ_FIGURE_SIZE];
     const double from = page->summary->beyond_validity_time * CZ_MILLI_PER_UNIT; /* or NaN */
     snprintf(title, room, "%s ms, %s kN%s", cz_figure_fixed(time, 0, page->time[sample]),
              cz_figure_fixed(number, 0, force != NULL ? force[sample] : NAN),
@@ -44,7 +44,7 @@ static void draw_frame(const CzPage *page, int interface, int sample, const char
 
 static void write_frame(CzPage *page, int interface, int sample) {
     CzMarkup *markup = &page->markup;
-    char title[CZ_SENTENCE_ROOM];
+    char title[CZ_SENTENCE_SIZE];
     name_frame(page, interface, sample, sizeof title, title);
     cz_markup_write(markup, "<figure><figcaption>%s</figcaption>", title);
     draw_frame(page, interface, sample, title, markup);
@@ -56,7 +56,7 @@ void cz_chart_write_frames(const CzPage *page, int interface, CzMarkup *markup) 
     cz_markup_write(markup, ">\n");
     for (int i = 0; i < N_FRAME; i++) {
         const int sample = sample_of(page, interface, i);
-        char title[CZ_SENTENCE_ROOM];
+        char title[CZ_SENTENCE_SIZE];
         name_frame(page, interface, sample, sizeof title, title);
         cz_svg_open_tile(markup, i, CZ_SCENE_HEIGHT, 4, title);
         draw_frame(page, interface, sample, title, markup);

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_PERCENT 100.0 /* margins below its negative are drawn at it */
+#define MAX_PERCENT 100.0 /* margins below its negative are drawn at it */
 #define MAP_LEFT 80.0
 #define MAP_TOP 10.0
 #define MAP_BELOW 70.0 /* numbers, label and legend */
@@ -68,7 +68,7 @@ static CzStatus write_curves(CzMarkup *markup, const CzSweep *sweep, CzError *er
         for (size_t i = 0; i < n; i++) {
             x[i] = sweep->point[i].value[0];
             const double percent = 100 * sweep->point[i].margin;
-            y[i] = percent < -MOST_PERCENT ? -MOST_PERCENT : percent; /* NaN stays a gap */
+            y[i] = percent < -MAX_PERCENT ? -MAX_PERCENT : percent; /* NaN stays a gap */
         }
         write_curve(markup, sweep, "Smallest margin of all checks (below -100 % drawn at -100 %)",
                     "margin [%]", true, x, y, n_band, band);
@@ -78,7 +78,7 @@ static CzStatus write_curves(CzMarkup *markup, const CzSweep *sweep, CzError *er
                 y[i] = sweep->point[i].metric[k];
                 is_known |= isfinite(y[i]) != 0;
             }
-            char title[CZ_SENTENCE_ROOM];
+            char title[CZ_SENTENCE_SIZE];
             snprintf(title, sizeof title, "%c%s", toupper((unsigned char)*sweep->metric_doc[k]),
                      sweep->metric_doc[k] + 1);
             if (is_known) /* unknown metrics are in the table only */
@@ -119,7 +119,7 @@ static void write_map(CzMarkup *markup, const CzSweep *sweep) {
     cz_svg_open(markup, "Map of verdicts", CZ_PLOT_WIDTH, bottom + MAP_BELOW);
     cz_markup_write(markup, ">");
     for (int row = 0; row < n_row; row++) {
-        char text[CZ_FIGURE_ROOM];
+        char text[CZ_FIGURE_SIZE];
         const double y = bottom - height * (row + 1); /* upwards, as in any diagram */
         if (is_numbered(row, height, 13))
             cz_svg_text(markup, MAP_LEFT - 5, y + height / 2 + 4, "end",
@@ -129,13 +129,13 @@ static void write_map(CzMarkup *markup, const CzSweep *sweep) {
                        width, height);
     }
     for (int column = 0; column < n_column; column++) {
-        char text[CZ_FIGURE_ROOM];
+        char text[CZ_FIGURE_SIZE];
         if (is_numbered(column, width, 38))
             cz_svg_text(markup, MAP_LEFT + width * (column + 0.5), bottom + 14, "middle",
                         cz_figure_digits(text, 5, cz_sweep_axis_value(&sweep->axis[1], column)));
     }
     cz_svg_text(markup, MAP_LEFT, bottom + 32, "start", sweep->axis[1].path);
-    char up[CZ_SENTENCE_ROOM];
+    char up[CZ_SENTENCE_SIZE];
     snprintf(up, sizeof up, "upwards: %s", sweep->axis[0].path);
     cz_svg_text(markup, MAP_LEFT, bottom + 47, "start", up);
     cz_svg_text(markup, MAP_LEFT, bottom + 64, "start", CZ_MAP_SIGNS);
@@ -145,7 +145,7 @@ static void write_map(CzMarkup *markup, const CzSweep *sweep) {
 CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error) {
     CzMarkup markup = {.stream = stream};
     CzReportTable table;
-    char title[CZ_SENTENCE_ROOM];
+    char title[CZ_SENTENCE_SIZE];
     snprintf(title, sizeof title, "%s, swept", cz_problem_title(sweep->problem));
     cz_page_write_head(&markup, title);
     cz_markup_write(&markup, "<h1>%s</h1>", title);

@@ -33,7 +33,7 @@ CzPointStyle cz_point_style(const CzSweepPoint *point);
 
 /* Sentence, without its full stop, on the scenarios that a value does not reach, from the index-th
  * on; returns how many it names or counts. */
-int cz_sweep_unreached_sentence(const CzSweep *sweep, int index, char text[CZ_SENTENCE_ROOM]);
+int cz_sweep_unreached_sentence(const CzSweep *sweep, int index, char text[CZ_SENTENCE_SIZE]);
 
 /* The table of all points. */
 void cz_sweep_begin_points(CzReportTable *table, const CzSweep *sweep, bool on_page);

@@ -16,12 +16,12 @@
 #define CAR_TOP 20.0
 #define CAR_HEIGHT 30.0
 #define ROW_HEIGHT 146.0
-#define MOST_IN_ROW 9 /* cars that are as wide as a page */
+#define MAX_IN_ROW 9  /* cars that are as wide as a page */
 #define NOTHING 100.0 /* elements with less energy are left out of the table [J] */
 
 static void write_car(const CzPage *page, int car, double x, double y, CzMarkup *markup) {
     const CzCar *description = &page->model->car[car];
-    char number[CZ_FIGURE_ROOM], text[CZ_FIGURE_ROOM + 8];
+    char number[CZ_FIGURE_SIZE], text[CZ_FIGURE_SIZE + 8];
     cz_markup_write(markup,
                     "<rect x='%.1f' y='%.1f' width='%.1f' height='%.1f' rx='4' fill='%s' "
                     "fill-opacity='.15' stroke='currentColor'/>",
@@ -57,7 +57,7 @@ static void write_interface(const CzPage *page, int index, double x, double y, C
                     interface->bottomed_out ? "#d0021b" : "currentColor", collides ? 5 : 2);
     cz_svg_text(markup, x, y + CAR_TOP + 14, "middle", interface->name);
     for (int i = 0; i < n_line; i++) {
-        char number[CZ_FIGURE_ROOM], text[CZ_FIGURE_ROOM + 8];
+        char number[CZ_FIGURE_SIZE], text[CZ_FIGURE_SIZE + 8];
         const bool is_early = lines[i].result == CZ_RESULT_AT(INTERFACE, peak_force_kN) &&
                               interface->peak_time <= run->beyond_validity_time;
         const bool is_total = lines[i].result->is_total; /* blank and not marked */
@@ -77,7 +77,7 @@ static void write_interface(const CzPage *page, int index, double x, double y, C
  * at the end of the first. */
 static void write_diagram(const CzPage *page, CzMarkup *markup) {
     const int n = page->model->n_car;
-    const int n_row = (n + MOST_IN_ROW - 1) / MOST_IN_ROW, n_in_row = (n + n_row - 1) / n_row;
+    const int n_row = (n + MAX_IN_ROW - 1) / MAX_IN_ROW, n_in_row = (n + n_row - 1) / n_row;
     const double pitch = CAR_WIDTH + BETWEEN;
     const double width = 2 * MARGIN + n_in_row * pitch - (n_row == 1 ? BETWEEN : 0);
     cz_svg_open(markup,

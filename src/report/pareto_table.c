@@ -22,7 +22,7 @@ static CzStyle style_of(const CzParetoPoint *point) {
 
 /* A value of an objective: a margin with its sign, other numbers with six digits. */
 static void put_value(CzReportTable *table, const CzParetoObjective *objective, double value) {
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     if (objective->is_margin)
         cz_table_put(table, cz_figure_margin(text, value));
     else
@@ -31,7 +31,7 @@ static void put_value(CzReportTable *table, const CzParetoObjective *objective, 
 
 static void put_point(CzReportTable *table, const CzPareto *pareto, int i) {
     const CzParetoPoint *point = &pareto->point[i];
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     cz_table_put_format(table, "%d", i + 1);
     for (int k = 0; k < 2; k++)
         put_value(table, &pareto->objective[k], point->value[k]);
@@ -52,7 +52,7 @@ static void put_point(CzReportTable *table, const CzPareto *pareto, int i) {
 }
 
 void cz_pareto_begin_points(CzReportTable *table, const CzPareto *pareto) {
-    char head[CZ_SENTENCE_ROOM];
+    char head[CZ_SENTENCE_SIZE];
     cz_table_begin(table, ">point");
     for (int k = 0; k < 2; k++) {
         snprintf(head, sizeof head, ">%s%s", pareto->objective[k].is_margin ? "smallest " : "",
@@ -85,7 +85,7 @@ void cz_pareto_describe(const CzPareto *pareto, size_t room, char *text) {
 void cz_pareto_write_table(const CzReport *report, CzTerminal *terminal) {
     const CzPareto *pareto = report->pareto;
     CzReportTable table;
-    char text[CZ_SENTENCE_ROOM];
+    char text[CZ_SENTENCE_SIZE];
     cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(report->problem));
     cz_pareto_begin_points(&table, pareto);
     cz_table_write_text(&table, terminal);

@@ -171,7 +171,7 @@ static void open_line(CzMarkup *markup, double x1, double y1, double x2, double 
 
 /* ---- axes ---- */
 
-static void tick_text(char text[CZ_FIGURE_ROOM], double value, double step) {
+static void tick_text(char text[CZ_FIGURE_SIZE], double value, double step) {
     int decimals = 0;
     for (double unit = step; unit < 0.999 && decimals < 9; unit *= 10)
         decimals++;
@@ -182,7 +182,7 @@ static void write_x_axis(const CzPlot *plot, const Frame *frame, CzMarkup *marku
     const double step = cz_plot_round_step(frame->x_max - frame->x_min, 7);
     const double bottom = TOP + frame->height;
     for (double i = ceil(frame->x_min / step - 1e-6); i * step <= frame->x_max + 1e-6 * step; i++) {
-        char text[CZ_FIGURE_ROOM];
+        char text[CZ_FIGURE_SIZE];
         const double x = paper_x(frame, i * step);
         open_line(markup, x, TOP, x, bottom);
         cz_markup_write(markup, " stroke='currentColor' stroke-opacity='.13'/>");
@@ -197,7 +197,7 @@ static void write_y_axis(const CzPlot *plot, const Frame *frame, CzMarkup *marku
     const double fine = cz_plot_round_step(frame->y_max - frame->y_min, 6);
     const double step = plot->counts ? fmax(fine, 1) : fine;
     for (double i = ceil(frame->y_min / step - 1e-6); i * step <= frame->y_max + 1e-6 * step; i++) {
-        char text[CZ_FIGURE_ROOM];
+        char text[CZ_FIGURE_SIZE];
         const double y = paper_y(frame, i * step);
         open_line(markup, LEFT, y, LEFT + frame->width, y);
         cz_markup_write(markup, " stroke='currentColor' stroke-opacity='%s'/>",
@@ -230,7 +230,7 @@ static bool write_piece(const Frame *frame, const CzSeries *series, int from, in
         paper[n + i] = paper_y(frame, series->y[from + i]);
     }
     if (fits)
-        fits = cz_decimate(n, paper, paper + n, TOLERANCE, CZ_PLOT_MOST_POINTS, keep) >= 0;
+        fits = cz_decimate(n, paper, paper + n, TOLERANCE, CZ_PLOT_MAX_POINTS, keep) >= 0;
     long last_x = 0, last_y = 0;
     for (int i = 0; fits && i < n; i++) {
         if (!keep[i])
@@ -388,7 +388,7 @@ static void put_mark(Legend *legend, const CzSeries *series) {
 }
 
 static void put_limit(Legend *legend, const CzPlotLimit *limit) {
-    char name[CZ_LABEL_ROOM + 8];
+    char name[CZ_LABEL_SIZE + 8];
     snprintf(name, sizeof name, "limit: %s", limit->name);
     put_line(legend, name, "#d0021b", "10 4");
 }
@@ -429,7 +429,7 @@ static double write_legend(const CzPlot *plot, double top, CzMarkup *markup) {
 void cz_plot_write(const CzPlot *plot, CzMarkup *markup) {
     const Frame frame = frame_of(plot);
     const double bottom = TOP + frame.height + BELOW_AXIS;
-    char range[4][CZ_FIGURE_ROOM];
+    char range[4][CZ_FIGURE_SIZE];
     cz_svg_open(markup, plot->title, CZ_PLOT_WIDTH, bottom + write_legend(plot, bottom, NULL));
     cz_markup_write(
         markup,

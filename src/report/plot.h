@@ -9,10 +9,10 @@
 #include "report/markup.h"
 
 enum {
-    CZ_PLOT_WIDTH = 480,       /* of every diagram, in the units of its text */
-    CZ_PLOT_N_COLOUR = 7,      /* colours before they repeat */
-    CZ_PLOT_QUIET = -1,        /* colour of a curve in the background */
-    CZ_PLOT_MOST_POINTS = 2000 /* of a curve */
+    CZ_PLOT_WIDTH = 480,      /* of every diagram, in the units of its text */
+    CZ_PLOT_N_COLOUR = 7,     /* colours before they repeat */
+    CZ_PLOT_QUIET = -1,       /* colour of a curve in the background */
+    CZ_PLOT_MAX_POINTS = 2000 /* of a curve */
 };
 
 typedef enum CzSeriesForm {

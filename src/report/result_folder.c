@@ -121,7 +121,7 @@ static void write_log(const Results *results, FILE *stream) {
                 run->status == CZ_OK ? "completed" : "FAILED", run->n_step,
                 cz_ended_text(run->ended), run->failure[0] != '\0' ? ": " : "", run->failure);
     }
-    char remark[CZ_SCREENING_ROOM];
+    char remark[CZ_SCREENING_SIZE];
     fprintf(stream, "verdict: %s%s\n", cz_verdict_text(evaluation->verdict),
             cz_screening_remark(evaluation->verdict, evaluation->n_not_covered, remark));
 }
@@ -299,7 +299,7 @@ static CzStatus write_run(CzFolder *folder, Results *results, int i, CzError *er
     static const File files[] = {
         {"interfaces.csv", INTERFACES}, {"channels.csv", CHANNELS}, {"report.html", REPORT}};
     const bool several = cz_n_kept_run(results->run.evaluation) > 1;
-    char scenario[CZ_NAME_ROOM], name[CZ_NAME_ROOM + 32];
+    char scenario[CZ_NAME_SIZE], name[CZ_NAME_SIZE + 32];
     results->scenario = i;
     results->is_top = false;
     cz_page_folder_name(cz_kept_run(results->run.evaluation, i)->scenario, scenario);
@@ -351,7 +351,7 @@ static CzStatus write_sampling(CzFolder *folder, Results *results, CzError *erro
     if (cz_report_options_of(results->report)->text != NULL)
         return CZ_OK;
     for (int k = 0; k < sampling->n_sample; k++) {
-        char name[CZ_REPLAY_ROOM];
+        char name[CZ_REPLAY_SIZE];
         if (!cz_replay_is_written(sampling, k))
             continue;
         results->sample = k;

@@ -55,7 +55,7 @@ double cz_result_number(const CzResult *result, CzResultContext *context, const 
     return number_at(result, context, record, 0);
 }
 
-const char *cz_result_text(char text[CZ_FIGURE_ROOM], const CzResult *result,
+const char *cz_result_text(char text[CZ_FIGURE_SIZE], const CzResult *result,
                            CzResultContext *context, const void *record) {
     const double number = cz_result_number(result, context, record);
     switch (result->format) {
@@ -80,7 +80,7 @@ void cz_table_head_results(CzReportTable *table, int n, const CzResult *const *r
 void cz_table_put_results(CzReportTable *table, int n, const CzResult *const *result,
                           CzResultContext *context, const void *record, bool is_marked) {
     for (int i = 0; i < n; i++) {
-        char text[CZ_FIGURE_ROOM];
+        char text[CZ_FIGURE_SIZE];
         cz_result_text(text, result[i], context, record);
         cz_table_put(table, cz_figure_mark(text, is_marked));
     }
@@ -220,7 +220,7 @@ static void visit_list(const Visit *visit, const char *path, const CzResult *res
     const int outer = context->index;
     const long n = result->number(context, record);
     for (context->index = 0; context->index < n; context->index++) {
-        char inside[2 * CZ_PATH_ROOM];
+        char inside[2 * CZ_PATH_SIZE];
         const bool is_record = result->form == CZ_FORM_RECORD;
         const void *item = is_record ? result->by.part(context, record) : NULL;
         const char *name = result->name != NULL ? result->name(context, record)
@@ -241,7 +241,7 @@ static void visit_list(const Visit *visit, const char *path, const CzResult *res
 static void visit_result(const Visit *visit, const char *path, const CzResult *result,
                          const void *record) {
     CzResultContext *context = visit->context;
-    char inside[2 * CZ_PATH_ROOM];
+    char inside[2 * CZ_PATH_SIZE];
     const bool is_number = result->form == CZ_FORM_NUMBER || result->form == CZ_FORM_WHOLE;
     if (result->is_there != NULL && !result->is_there(context, record))
         return;
@@ -253,7 +253,7 @@ static void visit_result(const Visit *visit, const char *path, const CzResult *r
         visit_results(visit, inside, result->of, result->by.part(context, record));
     } else if (is_number && result->member.n > 0) {
         for (int i = 0; i < result->member.n; i++) {
-            char item[2 * CZ_PATH_ROOM + 16];
+            char item[2 * CZ_PATH_SIZE + 16];
             snprintf(item, sizeof item, "%s[%d]", inside, i);
             visit->visit(item, result, number_at(result, context, record, i), visit->data);
         }

@@ -124,7 +124,7 @@ extern const CzResult cz_results[CZ_N_RESULT];
 double cz_result_number(const CzResult *result, CzResultContext *context, const void *record);
 
 /* The same as text for tables, in its format. */
-const char *cz_result_text(char text[CZ_FIGURE_ROOM], const CzResult *result,
+const char *cz_result_text(char text[CZ_FIGURE_SIZE], const CzResult *result,
                            CzResultContext *context, const void *record);
 
 /* Columns of a table with the headings of n results, and the cells of a record in them, marked when

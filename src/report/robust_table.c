@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOST_CHECKS = 12 };
+enum { MAX_CHECKS = 12 };
 
 static void put_round(CzReportTable *table, const CzRobustRound *round, int number) {
     const char *result = round->is_best ? " (result)" : "";
@@ -85,7 +85,7 @@ void cz_robust_write_table(const CzRobust *robust, CzTerminal *terminal) {
     cz_robust_begin_rounds(&table, robust);
     cz_table_write_text(&table, terminal);
     fputc('\n', terminal->stream);
-    cz_robust_begin_checks(&table, robust, order, MOST_CHECKS);
+    cz_robust_begin_checks(&table, robust, order, MAX_CHECKS);
     cz_table_write_text(&table, terminal);
     cz_sample_share_sentence(robust->sampling, text);
     cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s, judged by %s.\n", text,
@@ -116,7 +116,7 @@ void cz_robust_write_page(const CzRobust *robust, CzMarkup *markup) {
     cz_robust_challenge_sentence(robust, text);
     if (text[0] != '\0')
         cz_markup_write(markup, "<p>%s.</p>", text);
-    cz_robust_begin_checks(&table, robust, order, MOST_CHECKS);
+    cz_robust_begin_checks(&table, robust, order, MAX_CHECKS);
     cz_table_write_page(&table, markup);
     cz_markup_write(markup, "</section>\n");
     free(order);

@@ -35,7 +35,7 @@ static void write_speeds(const CzProblem *problem, const char *name, FILE *strea
     }
     if (train[0] == NULL || train[1] == NULL)
         return;
-    char text[2][CZ_FIGURE_ROOM];
+    char text[2][CZ_FIGURE_SIZE];
     for (int side = 0; side < 2; side++)
         cz_figure_digits(text[side], 4,
                          given_or(speed[side], train[side]->speed) * CZ_KM_H_PER_M_S);
@@ -45,7 +45,7 @@ static void write_speeds(const CzProblem *problem, const char *name, FILE *strea
 static void write_run_head(const CzProblem *problem, const CzRunSummary *run,
                            CzTerminal *terminal) {
     static const char poor[] = "POOR: reduce the time step";
-    char number[CZ_FIGURE_ROOM];
+    char number[CZ_FIGURE_SIZE];
     cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s", run->scenario);
     write_speeds(problem, run->scenario, terminal->stream);
     if (run->status != CZ_OK) {
@@ -86,7 +86,7 @@ static void describe_damage(const CzRunSummary *run, int interface, size_t room,
         const bool bottomed = event->what == CZ_EVENT_BOTTOMED_OUT;
         if ((!bottomed && event->what != CZ_EVENT_SHEAR_OFF) || event->interface != interface)
             continue;
-        char time[CZ_FIGURE_ROOM];
+        char time[CZ_FIGURE_SIZE];
         const int n = snprintf(text + used, room - used, "%s%s %s at %s ms", used > 0 ? ", " : "",
                                event->where, bottomed ? "BOTTOMED OUT" : "sheared off",
                                cz_figure_fixed(time, 0, event->time * CZ_MILLI_PER_UNIT));
@@ -107,7 +107,7 @@ static void put_interface(CzReportTable *table, const CzRunSummary *run, int ind
     const bool late = run->beyond_validity;
     const bool peak_is_late = late && !(interface->peak_time <= run->beyond_validity_time);
     const CzStyle style = interface->bottomed_out ? CZ_STYLE_BAD : CZ_STYLE_PLAIN;
-    char text[CZ_FIGURE_ROOM + 2], damage[CZ_MAX_ELEMENTS * (CZ_WHERE_ROOM + CZ_FIGURE_ROOM + 32)];
+    char text[CZ_FIGURE_SIZE + 2], damage[CZ_MAX_ELEMENTS * (CZ_WHERE_SIZE + CZ_FIGURE_SIZE + 32)];
     CzResultContext context = {.run = run};
     cz_table_put(table, interface->name);
     for (int k = 0; k < N_INTERFACE_COLUMN; k++) {
@@ -143,7 +143,7 @@ static void write_interfaces(const CzRunSummary *run, bool compact, CzTerminal *
 
 /* Writes wheel lift and override, which are results of the whole run. */
 static void write_climbing(const CzRunSummary *run, CzTerminal *terminal) {
-    char time[CZ_FIGURE_ROOM];
+    char time[CZ_FIGURE_SIZE];
     for (int i = 0; i < run->n_event; i++) {
         const CzEvent *event = &run->event[i];
         const bool override = event->what == CZ_EVENT_OVERRIDE;
@@ -212,7 +212,7 @@ static int worst_member(const CzProblem *problem, const CzEvaluation *evaluation
 static void write_family(const CzProblem *problem, const CzEvaluation *evaluation,
                          const char *family, CzTerminal *terminal) {
     const CzCheckResult *worst = worst_check(evaluation, family);
-    char margin[CZ_FIGURE_ROOM];
+    char margin[CZ_FIGURE_SIZE];
     int n = 0;
     for (int i = 0; i < evaluation->n_run; i++)
         n += member_of(problem, evaluation, i, family) != NULL;

@@ -9,13 +9,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LEAST_PERCENT -100.0 /* margins beyond these are drawn at them */
-#define MOST_PERCENT 200.0
+#define MIN_PERCENT -100.0 /* margins beyond these are drawn at them */
+#define MAX_PERCENT 200.0
 
 /* Margin as drawn [%]; NaN for none, the smallest one drawn for a run that failed. */
 static double percent_of(const CzSampling *sampling, int sample, int check) {
     const double margin = cz_sample_margin(sampling, sample, check);
-    return isnan(margin) ? NAN : fmin(fmax(100 * margin, LEAST_PERCENT), MOST_PERCENT);
+    return isnan(margin) ? NAN : fmin(fmax(100 * margin, MIN_PERCENT), MAX_PERCENT);
 }
 
 static void format_check(const CzSampledCheck *check, size_t room, char *text) {
@@ -24,12 +24,12 @@ static void format_check(const CzSampledCheck *check, size_t room, char *text) {
 
 /* ---- histogram ---- */
 
-enum { FEWEST_BINS = 8, MOST_BINS = 72 };
+enum { MIN_BINS = 8, MAX_BINS = 72 };
 
 typedef struct Histogram {
     double from, step; /* [%] */
     int n_bin, most;
-    int count[MOST_BINS];
+    int count[MAX_BINS];
 } Histogram;
 
 static Histogram histogram_of(const CzSampling *sampling, int check) {
@@ -41,14 +41,14 @@ static Histogram histogram_of(const CzSampling *sampling, int check) {
     }
     if (!(least <= most))
         return histogram;
-    const double n_bin = fmin(fmax(2 * sqrt(sampling->n_run), FEWEST_BINS), MOST_BINS / 3.0);
+    const double n_bin = fmin(fmax(2 * sqrt(sampling->n_run), MIN_BINS), MAX_BINS / 3.0);
     histogram.step = cz_plot_round_step(fmax(most - least, 0.1), (int)n_bin);
     histogram.from = floor(least / histogram.step) * histogram.step;
     for (int k = 0; k < sampling->n_sample; k++) {
         const double place = (percent_of(sampling, k, check) - histogram.from) / histogram.step;
         if (isnan(place))
             continue;
-        const int bin = (int)fmin(fmax(place, 0), MOST_BINS - 1);
+        const int bin = (int)fmin(fmax(place, 0), MAX_BINS - 1);
         histogram.n_bin = bin + 1 > histogram.n_bin ? bin + 1 : histogram.n_bin;
         if (++histogram.count[bin] > histogram.most)
             histogram.most = histogram.count[bin];
@@ -59,7 +59,7 @@ static Histogram histogram_of(const CzSampling *sampling, int check) {
 /* A vertical line at a margin of the nominal design. */
 static CzSeries mark(const char *name, double margin, double most, int colour, int dash,
                      double x[2], double y[2]) {
-    x[0] = x[1] = fmin(fmax(100 * margin, LEAST_PERCENT), MOST_PERCENT);
+    x[0] = x[1] = fmin(fmax(100 * margin, MIN_PERCENT), MAX_PERCENT);
     y[0] = 0;
     y[1] = most;
     return (CzSeries){.name = name, .n = 2, .x = x, .y = y, .colour = colour, .dash = dash};
@@ -68,8 +68,8 @@ static CzSeries mark(const char *name, double margin, double most, int colour, i
 void cz_sample_draw_histogram(const CzSampling *sampling, int check, CzMarkup *markup) {
     const CzSampledCheck *sampled = &sampling->check[check];
     const Histogram histogram = histogram_of(sampling, check);
-    double x[4 * MOST_BINS], y[4 * MOST_BINS], mark_x[2][2], mark_y[2][2];
-    char title[CZ_SENTENCE_ROOM];
+    double x[4 * MAX_BINS], y[4 * MAX_BINS], mark_x[2][2], mark_y[2][2];
+    char title[CZ_SENTENCE_SIZE];
     int n = 0, n_series = 1;
     for (int bin = 0; bin < histogram.n_bin; bin++)
         for (int corner = 0; corner < 4; corner++, n++) {
@@ -84,7 +84,7 @@ void cz_sample_draw_histogram(const CzSampling *sampling, int check, CzMarkup *m
     if (!isnan(sampled->bare))
         series[n_series++] = mark(are_equal ? "nominal design" : "nominal, as samples",
                                   sampled->bare, histogram.most, 2, 0, mark_x[1], mark_y[1]);
-    const CzPlotBand band = {"FAIL", 2 * LEAST_PERCENT, 0, 1};
+    const CzPlotBand band = {"FAIL", 2 * MIN_PERCENT, 0, 1};
     format_check(sampled, sizeof title, title);
     const CzPlot plot = {.title = title,
                          .x_label = "margin [%]",
@@ -101,7 +101,7 @@ void cz_sample_draw_histogram(const CzSampling *sampling, int check, CzMarkup *m
 
 /* ---- strongest draws ---- */
 
-enum { MOST_ROWS = 10 };
+enum { MAX_ROWS = 10 };
 
 /* The n strongest draws of a check, from the strongest on; returns their number. */
 static int strongest_draws(const CzSampling *sampling, int check, int n, int *draw) {
@@ -128,7 +128,7 @@ static int strongest_draws(const CzSampling *sampling, int check, int n, int *dr
 
 /* Writes a name, its start cut where it is too wide. */
 static void write_name(CzMarkup *markup, double x, double y, double width, const char *name) {
-    char text[CZ_SENTENCE_ROOM];
+    char text[CZ_SENTENCE_SIZE];
     const char *from = name;
     snprintf(text, sizeof text, "%.1400s", name);
     while (*from != '\0' && FONT_SIZE * cz_text_width(text) > width) {
@@ -141,7 +141,7 @@ static void write_name(CzMarkup *markup, double x, double y, double width, const
 }
 
 static void write_bar(CzMarkup *markup, double correlation, double y) {
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     const double length = HALF * fabs(correlation);
     const bool rises = correlation >= 0;
     cz_markup_write(markup,
@@ -155,7 +155,7 @@ static void write_bar(CzMarkup *markup, double correlation, double y) {
 
 static void write_scale(CzMarkup *markup, double bottom) {
     for (int i = -2; i <= 2; i++) {
-        char text[CZ_FIGURE_ROOM];
+        char text[CZ_FIGURE_SIZE];
         const double x = MIDDLE + HALF * i / 2;
         cz_markup_write(markup,
                         "<path d='M%ld %ldV%ld' stroke='currentColor' stroke-opacity='%s'/>",
@@ -167,9 +167,9 @@ static void write_scale(CzMarkup *markup, double bottom) {
 }
 
 void cz_sample_draw_tornado(const CzSampling *sampling, int check, CzMarkup *markup) {
-    char title[CZ_SENTENCE_ROOM];
-    int draw[MOST_ROWS];
-    const int n = strongest_draws(sampling, check, MOST_ROWS, draw);
+    char title[CZ_SENTENCE_SIZE];
+    int draw[MAX_ROWS];
+    const int n = strongest_draws(sampling, check, MAX_ROWS, draw);
     const double bottom = HEAD + ROW * n;
     format_check(&sampling->check[check], sizeof title, title);
     cz_markup_write(markup, "<figure><figcaption>%s</figcaption>", title);
@@ -186,7 +186,7 @@ void cz_sample_draw_tornado(const CzSampling *sampling, int check, CzMarkup *mar
 
 /* ---- scatter matrix ---- */
 
-enum { MOST_DRAWS = 4, MOST_DOTS = 1000 }; /* of each cell */
+enum { MAX_DRAWS = 4, MAX_DOTS = 1000 }; /* of each cell */
 
 #define MATRIX_LEFT 52.0
 #define MATRIX_WIDTH 720.0
@@ -196,8 +196,8 @@ enum { MOST_DRAWS = 4, MOST_DOTS = 1000 }; /* of each cell */
 typedef struct Matrix {
     const CzSampling *sampling;
     int check, n; /* n axes */
-    int draw[MOST_DRAWS];
-    double low[MOST_DRAWS + 1], high[MOST_DRAWS + 1];
+    int draw[MAX_DRAWS];
+    double low[MAX_DRAWS + 1], high[MAX_DRAWS + 1];
     double cell; /* width and height */
 } Matrix;
 
@@ -236,7 +236,7 @@ static void write_dots(CzMarkup *markup, const Matrix *matrix, int row, int colu
                     "<path stroke='%s' stroke-width='%s' stroke-opacity='.65' "
                     "stroke-linecap='round' d='",
                     cz_plot_colour(fails ? 1 : 0), fails ? "4" : "3");
-    for (int k = 0, n = 0; k < matrix->sampling->n_sample && n < MOST_DOTS; k++) {
+    for (int k = 0, n = 0; k < matrix->sampling->n_sample && n < MAX_DOTS; k++) {
         const double across = value_on(matrix, column, k), up = value_on(matrix, row, k);
         if (matrix->sampling->sample[k].state == CZ_SAMPLE_NOT_RUN || isnan(across) || isnan(up))
             continue;
@@ -254,7 +254,7 @@ static void write_dots(CzMarkup *markup, const Matrix *matrix, int row, int colu
 
 /* Smallest and largest number of an axis, at the left of a row or below a column. */
 static void write_range(CzMarkup *markup, const Matrix *matrix, int axis, bool at_left) {
-    char low[CZ_FIGURE_ROOM], high[CZ_FIGURE_ROOM];
+    char low[CZ_FIGURE_SIZE], high[CZ_FIGURE_SIZE];
     const double x = cell_x(matrix, axis), y = cell_y(matrix, axis);
     cz_figure_digits(low, 3, matrix->low[axis]);
     cz_figure_digits(high, 3, matrix->high[axis]);
@@ -302,9 +302,9 @@ static void write_cell(CzMarkup *markup, const Matrix *matrix, int row, int colu
 
 /* What the numbers on the diagonal mean. */
 static void write_key(CzMarkup *markup, const Matrix *matrix, double top) {
-    char text[CZ_SENTENCE_ROOM];
+    char text[CZ_SENTENCE_SIZE];
     format_check(&matrix->sampling->check[matrix->check], sizeof text, text);
-    char line[CZ_SENTENCE_ROOM + 40];
+    char line[CZ_SENTENCE_SIZE + 40];
     snprintf(line, sizeof line, "margin [%%]: %s; orange dots fail it", text);
     write_name(markup, MATRIX_LEFT, top, MATRIX_WIDTH - MATRIX_LEFT, line);
     for (int axis = 1; axis < matrix->n; axis++) {
@@ -321,7 +321,7 @@ static void write_key(CzMarkup *markup, const Matrix *matrix, double top) {
 
 void cz_sample_draw_matrix(const CzSampling *sampling, int check, CzMarkup *markup) {
     Matrix matrix = {.sampling = sampling, .check = check};
-    matrix.n = 1 + strongest_draws(sampling, check, MOST_DRAWS, matrix.draw);
+    matrix.n = 1 + strongest_draws(sampling, check, MAX_DRAWS, matrix.draw);
     matrix.cell = fmin((MATRIX_WIDTH - MATRIX_LEFT - 10) / matrix.n - GAP, 170);
     find_ranges(&matrix);
     const double below = cell_y(&matrix, matrix.n) + 28;
@@ -342,12 +342,12 @@ void cz_sample_draw_matrix(const CzSampling *sampling, int check, CzMarkup *mark
 
 /* ---- convergence ---- */
 
-enum { MOST_SHARES = 32 };
+enum { MAX_SHARES = 32 };
 
 void cz_sample_draw_convergence(const CzSampling *sampling, CzMarkup *markup) {
-    double x[MOST_SHARES], y[3][MOST_SHARES];
+    double x[MAX_SHARES], y[3][MAX_SHARES];
     int n = 0;
-    for (int i = 0; i < sampling->n_convergence && n < MOST_SHARES; i++, n++) {
+    for (int i = 0; i < sampling->n_convergence && n < MAX_SHARES; i++, n++) {
         const CzSampledShare *share = &sampling->convergence[i];
         x[n] = share->n;
         y[0][n] = 100 * share->share;

@@ -19,8 +19,8 @@ bool cz_replay_is_written(const CzSampling *sampling, int sample) {
     return is_worst && sampling->sample[sample].state != CZ_SAMPLE_INVALID;
 }
 
-void cz_replay_name(int sample, char name[CZ_REPLAY_ROOM]) {
-    snprintf(name, CZ_REPLAY_ROOM, "replay/sample-%d.yaml", sample + 1);
+void cz_replay_name(int sample, char name[CZ_REPLAY_SIZE]) {
+    snprintf(name, CZ_REPLAY_SIZE, "replay/sample-%d.yaml", sample + 1);
 }
 
 /* The checks of which the sample is the worst, as a comment. */
@@ -29,7 +29,7 @@ static void write_reason(const CzSampling *sampling, int sample, FILE *stream) {
             sampling->n_sample, sampling->seed);
     for (int c = 0; c < sampling->n_check; c++) {
         const CzSampledCheck *check = &sampling->check[c];
-        char text[CZ_FIGURE_ROOM];
+        char text[CZ_FIGURE_SIZE];
         if (check->margin.worst == sample)
             fprintf(stream, "#   %s, %s: margin %s\n", check->name, check->scenario,
                     cz_figure_margin(text, cz_sample_margin(sampling, sample, c)));
@@ -110,7 +110,7 @@ void cz_replay_write(const CzReport *report, int sample, const char *folder, FIL
     cz_overlay_write_base(report, problem, folder, "../", stream);
     cz_replay_begin_scenarios(problem, stream);
     for (int j = 0; j < parts->cases.n_scenario; j++) {
-        char name[CZ_NAME_ROOM];
+        char name[CZ_NAME_SIZE];
         cz_case_name(&parts->cases, j, sample, name);
         cz_replay_write_scenario(
             problem, parts->cases.scenario[j], name, sampling->n_draw, sampling->draw,

@@ -8,9 +8,9 @@
 /* Whether a sample is written: it is the worst one of a check, or of all. */
 bool cz_replay_is_written(const CzSampling *sampling, int sample);
 
-enum { CZ_REPLAY_ROOM = 40 };
+enum { CZ_REPLAY_SIZE = 40 };
 /* Name of its file in the result folder. */
-void cz_replay_name(int sample, char name[CZ_REPLAY_ROOM]);
+void cz_replay_name(int sample, char name[CZ_REPLAY_SIZE]);
 
 /* Begins the list of further scenarios of a problem, and writes one of them: like a scenario of the
  * problem, with these values (n_draw) of draws. */

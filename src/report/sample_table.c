@@ -44,7 +44,7 @@ static void append(char text[CZ_SAMPLE_SENTENCE], const char *between, int n, co
 
 void cz_sample_share_sentence(const CzSampling *sampling, char text[CZ_SAMPLE_SENTENCE]) {
     const CzSampledShare *passing = &sampling->passing;
-    char share[CZ_FIGURE_ROOM], low[CZ_FIGURE_ROOM], high[CZ_FIGURE_ROOM];
+    char share[CZ_FIGURE_SIZE], low[CZ_FIGURE_SIZE], high[CZ_FIGURE_SIZE];
     snprintf(text, CZ_SAMPLE_SENTENCE, "%d of %d samples pass: %s %% (95 %% interval %s to %s %%)",
              passing->n_pass, passing->n, cz_figure_digits(share, 3, 100 * passing->share),
              cz_figure_digits(low, 3, 100 * passing->low),
@@ -90,7 +90,7 @@ bool cz_sample_unjudged_sentence(const CzSampling *sampling, char text[CZ_SAMPLE
 /* ---- checks ---- */
 
 void cz_sample_put_margin(CzReportTable *table, double margin) {
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     const bool is_failed = isinf(margin);
     cz_table_put_styled(table, is_failed ? "failed" : cz_figure_margin(text, margin),
                         margin < 0 ? CZ_STYLE_BAD : CZ_STYLE_PLAIN);
@@ -98,7 +98,7 @@ void cz_sample_put_margin(CzReportTable *table, double margin) {
 
 static void put_check(CzReportTable *table, const CzSampling *sampling,
                       const CzSampledCheck *check) {
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     cz_table_put(table, check->name);
     cz_table_put(table, check->scenario);
     cz_sample_put_margin(table, check->nominal);
@@ -151,7 +151,7 @@ int cz_sample_begin_checks(CzReportTable *table, const CzSampling *sampling, con
 /* ---- draws ---- */
 
 static void put_draw(CzReportTable *table, const CzDraw *draw) {
-    char low[CZ_FIGURE_ROOM], high[CZ_FIGURE_ROOM];
+    char low[CZ_FIGURE_SIZE], high[CZ_FIGURE_SIZE];
     const bool is_factor = draw->effect == CZ_DRAW_FACTOR;
     const double scale = is_factor ? 100 : 1, zero = is_factor ? 1 : 0;
     const char *unit = is_factor ? "%" : draw->unit;
@@ -174,10 +174,10 @@ void cz_sample_begin_draws(CzReportTable *table, const char *heads, int n_draw,
 
 /* ---- the terminal ---- */
 
-enum { MOST_DRAWS = 24, MOST_FAILURES = 3 };
+enum { MAX_DRAWS = 24, MAX_FAILURES = 3 };
 
 static void write_failures(const CzSampling *sampling, CzTerminal *terminal) {
-    for (int k = 0, n = 0; k < sampling->n_sample && n < MOST_FAILURES; k++) {
+    for (int k = 0, n = 0; k < sampling->n_sample && n < MAX_FAILURES; k++) {
         const CzSample *sample = &sampling->sample[k];
         if (sample->message == NULL)
             continue;
@@ -185,9 +185,9 @@ static void write_failures(const CzSampling *sampling, CzTerminal *terminal) {
         cz_terminal_print(terminal, CZ_STYLE_BAD, "Sample %d %s: %s\n", k + 1,
                           cz_sample_state_text(sample->state), sample->message);
     }
-    if (sampling->n_failed > MOST_FAILURES)
+    if (sampling->n_failed > MAX_FAILURES)
         cz_terminal_print(terminal, CZ_STYLE_BAD, "and %d more without results.\n",
-                          sampling->n_failed - MOST_FAILURES);
+                          sampling->n_failed - MAX_FAILURES);
 }
 
 static void write_checks(const CzSampling *sampling, CzTerminal *terminal) {
@@ -214,7 +214,7 @@ static void write_worst(const CzReport *report, CzTerminal *terminal) {
     if (worst < 0)
         return;
     const CzSample *sample = &sampling->sample[worst];
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     cz_terminal_print(terminal, CZ_STYLE_PLAIN, "Worst: sample %d, %s", worst + 1,
                       sample->state != CZ_SAMPLE_DONE ? cz_sample_state_text(sample->state)
                       : isinf(sample->margin)         ? "beyond model validity"
@@ -234,7 +234,7 @@ static void write_worst(const CzReport *report, CzTerminal *terminal) {
 static void write_judgement(const CzSampling *sampling, CzTerminal *terminal) {
     const CzVerdict verdict = sampling->judgement;
     const int n_not_covered = sampling->nominal.n_not_covered;
-    char text[CZ_SCREENING_ROOM];
+    char text[CZ_SCREENING_SIZE];
     const char *remark = cz_screening_remark(verdict, n_not_covered, text);
     cz_terminal_print(terminal, cz_verdict_style(verdict), "%s", cz_verdict_title(verdict));
     cz_terminal_print(terminal, CZ_STYLE_PLAIN,
@@ -250,7 +250,7 @@ void cz_sample_write_table(const CzReport *report, CzTerminal *terminal) {
     cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s\n", cz_problem_title(sampling->problem));
     cz_sample_method_sentence(sampling, text);
     cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s\n\n", text);
-    if (sampling->n_draw <= MOST_DRAWS) {
+    if (sampling->n_draw <= MAX_DRAWS) {
         cz_sample_begin_draws(&table, CZ_DRAW_HEADS("random number"), sampling->n_draw,
                               sampling->draw);
         cz_table_write_text(&table, terminal);

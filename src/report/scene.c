@@ -189,7 +189,7 @@ static void write_car(const CzPage *page, int car, int sample, double origin, bo
     const Outline outline[2] = {outline_of(page, car, REAR), outline_of(page, car, FRONT)};
     const double cg =
         isnan(vehicle_of(page, car)->cg_height) ? 1 : vehicle_of(page, car)->cg_height;
-    char x[CZ_FIGURE_ROOM], z[CZ_FIGURE_ROOM], turn[CZ_FIGURE_ROOM], pivot[CZ_FIGURE_ROOM];
+    char x[CZ_FIGURE_SIZE], z[CZ_FIGURE_SIZE], turn[CZ_FIGURE_SIZE], pivot[CZ_FIGURE_SIZE];
     cz_markup_write(markup, "<g class='car' transform='translate(%s 0)'",
                     cz_figure_fixed(x, 2, S * (page->layout[car].x + pose.x - origin)));
     if (moves)

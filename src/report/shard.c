@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_SHARDS = 1000000 }; /* as many as samples (ours) */
+enum { MAX_SHARDS = 1000000 }; /* as many as samples (ours) */
 
 /* ---- writing ---- */
 
@@ -150,8 +150,8 @@ bool cz_shard_read_head(CzLineCursor *cursor, CzShardHead *head) {
     head->command = read_key(cursor, "command");
     head->file = read_key(cursor, "file");
     head->problem = read_key(cursor, "problem");
-    head->shard = read_whole(cursor, ", \"shard\": ", 1, MOST_SHARDS);
-    head->n_shard = read_whole(cursor, ", \"of\": ", head->shard, MOST_SHARDS);
+    head->shard = read_whole(cursor, ", \"shard\": ", 1, MAX_SHARDS);
+    head->n_shard = read_whole(cursor, ", \"of\": ", head->shard, MAX_SHARDS);
     head->n = read_whole(cursor, ", \"n\": ", 1, most);
     head->begin = read_whole(cursor, ", \"begin\": ", 0, head->n);
     head->end = read_whole(cursor, ", \"end\": ", head->begin, head->n);

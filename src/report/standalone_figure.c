@@ -92,7 +92,7 @@ CzChartOptions cz_chart_options_default(void) {
 CzStatus cz_report_write_chart(const CzReportRun *run, const CzChartOptions *chosen, FILE *stream,
                                CzError *error) {
     CzChart chart;
-    CzChartCurve measured[CZ_MOST_CHART_CURVES];
+    CzChartCurve measured[CZ_MAX_CHART_CURVES];
     int scenario, index = 0, n_measured;
     CZ_TRY(find_chart(chosen->what, &chart, error));
     CZ_TRY(find_scenario(run->evaluation, run->scenario, &scenario, error));
@@ -156,7 +156,7 @@ static const char *verdict_text(CzFitVerdict verdict) {
 CzStatus cz_report_write_fit_figure(const CzFit *fit, FILE *stream, CzError *error) {
     const CzFitSummary *summary = cz_fit_summary(fit);
     const int n[] = {summary->curve.n, summary->law.n};
-    char title[200], number[CZ_FIGURE_ROOM];
+    char title[200], number[CZ_FIGURE_SIZE];
     double *values[] = {scaled(&summary->curve), scaled(&summary->law)};
     const bool has_memory = values[0] != NULL && values[1] != NULL;
     CzMarkup markup = {.stream = stream, .failed = !has_memory};

@@ -16,7 +16,7 @@ static const struct {
 } figures[] = {{"fd", "Force over closure of the colliding interface", CZ_CHART_FORCE_CLOSURE},
                {"force", "Force of the colliding interface", CZ_CHART_FORCE},
                {"velocity", "Speed of the car behind the colliding interface", CZ_CHART_VELOCITY}};
-enum { N_FIGURE = sizeof figures / sizeof *figures, LABEL_ROOM = 160 };
+enum { N_FIGURE = sizeof figures / sizeof *figures, LABEL_SIZE = 160 };
 
 /* The last two keys of a path, such as "A.speed_km_h". */
 static const char *short_path(const char *path) {
@@ -28,16 +28,16 @@ static const char *short_path(const char *path) {
 
 /* The values of a point, such as "A.speed_km_h 8", marked after an override. */
 static const char *label_of(const CzSweep *sweep, const CzSweepCurve *curve,
-                            char text[LABEL_ROOM]) {
+                            char text[LABEL_SIZE]) {
     const CzSweepPoint *point = &sweep->point[curve->point];
-    char number[CZ_FIGURE_ROOM];
+    char number[CZ_FIGURE_SIZE];
     int n = 0;
     for (int k = 0; k < sweep->n_axis; k++)
         n +=
-            snprintf(text + n, (size_t)(LABEL_ROOM - n), "%s%.40s %.20s", k > 0 ? ", " : "",
+            snprintf(text + n, (size_t)(LABEL_SIZE - n), "%s%.40s %.20s", k > 0 ? ", " : "",
                      short_path(sweep->axis[k].path), cz_figure_digits(number, 6, point->value[k]));
     if (point->beyond_validity)
-        snprintf(text + n, (size_t)(LABEL_ROOM - n), " (override)");
+        snprintf(text + n, (size_t)(LABEL_SIZE - n), " (override)");
     return text;
 }
 
@@ -50,17 +50,17 @@ static const double *values_of(const CzSweepCurve *curve, CzDrawn drawn) {
 }
 
 /* Title of a figure, with the paths of the values in its legend. */
-static void make_title(const CzSweep *sweep, int figure, char title[CZ_SENTENCE_ROOM]) {
-    snprintf(title, CZ_SENTENCE_ROOM, "%s, %.48s, by %.160s%s%.160s", figures[figure].title,
+static void make_title(const CzSweep *sweep, int figure, char title[CZ_SENTENCE_SIZE]) {
+    snprintf(title, CZ_SENTENCE_SIZE, "%s, %.48s, by %.160s%s%.160s", figures[figure].title,
              sweep->curve_scenario, sweep->axis[0].path, sweep->n_axis > 1 ? " and " : "",
              sweep->n_axis > 1 ? sweep->axis[1].path : "");
 }
 
 static void write_figure(const CzSweep *sweep, int figure, bool is_alone, CzMarkup *markup) {
     const CzChartInfo *chart = &cz_charts[figures[figure].chart];
-    CzSeries series[CZ_MOST_SWEPT_CURVES];
-    char label[2][CZ_DRAWN_LABEL], name[CZ_MOST_SWEPT_CURVES][LABEL_ROOM];
-    char title[CZ_SENTENCE_ROOM];
+    CzSeries series[CZ_MAX_SWEPT_CURVES];
+    char label[2][CZ_DRAWN_LABEL], name[CZ_MAX_SWEPT_CURVES][LABEL_SIZE];
+    char title[CZ_SENTENCE_SIZE];
     int n = 0;
     for (int i = 0; i < sweep->n_curve; i++) {
         const CzSweepCurve *curve = &sweep->curve[i];

@@ -29,7 +29,7 @@ CzPointStyle cz_point_style(const CzSweepPoint *point) {
 }
 
 static void put_point(CzReportTable *table, const CzSweep *sweep, const CzSweepPoint *point) {
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     const CzPointStyle look = cz_point_style(point);
     for (int k = 0; k < sweep->n_axis; k++)
         cz_table_put(table, cz_figure_digits(text, 6, point->value[k]));
@@ -48,7 +48,7 @@ static void put_point(CzReportTable *table, const CzSweep *sweep, const CzSweepP
 
 /* Adds a column of numbers; on a terminal with the last key of the path only. */
 static void add_head(CzReportTable *table, const char *path, bool whole) {
-    char head[CZ_PATH_ROOM + 1];
+    char head[CZ_PATH_SIZE + 1];
     const char *dot = strrchr(path, '.');
     snprintf(head, sizeof head, ">%s", dot != NULL && !whole ? dot + 1 : path);
     cz_table_head(table, head);
@@ -69,28 +69,28 @@ void cz_sweep_begin_points(CzReportTable *table, const CzSweep *sweep, bool on_p
         put_point(table, sweep, &sweep->point[i]);
 }
 
-int cz_sweep_unreached_sentence(const CzSweep *sweep, int index, char text[CZ_SENTENCE_ROOM]) {
-    enum { MOST_NAMED = 8 };
+int cz_sweep_unreached_sentence(const CzSweep *sweep, int index, char text[CZ_SENTENCE_SIZE]) {
+    enum { MAX_NAMED = 8 };
     const CzUnreached *first = &sweep->unreached[index];
     int n = 1, at;
     while (index + n < sweep->n_unreached && first[n].axis == first->axis &&
            strcmp(first[n].by, first->by) == 0)
         n++;
-    at = snprintf(text, CZ_SENTENCE_ROOM, "%s does not reach scenario%s ",
+    at = snprintf(text, CZ_SENTENCE_SIZE, "%s does not reach scenario%s ",
                   sweep->axis[first->axis].path, n > 1 ? "s" : "");
-    for (int k = 0; k < n && k < MOST_NAMED; k++)
-        at += snprintf(text + at, (size_t)(CZ_SENTENCE_ROOM - at), "%s%.48s", k > 0 ? ", " : "",
+    for (int k = 0; k < n && k < MAX_NAMED; k++)
+        at += snprintf(text + at, (size_t)(CZ_SENTENCE_SIZE - at), "%s%.48s", k > 0 ? ", " : "",
                        first[k].scenario);
-    if (n > MOST_NAMED)
-        at += snprintf(text + at, (size_t)(CZ_SENTENCE_ROOM - at), " and %d more", n - MOST_NAMED);
-    snprintf(text + at, (size_t)(CZ_SENTENCE_ROOM - at), ", which set%s %s %s", n > 1 ? "" : "s",
+    if (n > MAX_NAMED)
+        at += snprintf(text + at, (size_t)(CZ_SENTENCE_SIZE - at), " and %d more", n - MAX_NAMED);
+    snprintf(text + at, (size_t)(CZ_SENTENCE_SIZE - at), ", which set%s %s %s", n > 1 ? "" : "s",
              first->by, n > 1 ? "themselves" : "itself");
     return n;
 }
 
 /* The values of an axis: from the first to the last, or the list. */
 static void write_values(const CzSweepAxis *axis, CzTerminal *terminal) {
-    char from[CZ_FIGURE_ROOM], to[CZ_FIGURE_ROOM];
+    char from[CZ_FIGURE_SIZE], to[CZ_FIGURE_SIZE];
     if (!axis->is_list)
         fprintf(terminal->stream, "%s to %s", cz_figure_digits(from, 6, axis->from),
                 cz_figure_digits(to, 6, axis->to));
@@ -102,7 +102,7 @@ static void write_values(const CzSweepAxis *axis, CzTerminal *terminal) {
 /* The map: a row per value of the first path, a sign per value of the second. */
 static void write_map(const CzSweep *sweep, CzTerminal *terminal) {
     const CzSweepAxis *down = &sweep->axis[0], *across = &sweep->axis[1];
-    char from[CZ_FIGURE_ROOM];
+    char from[CZ_FIGURE_SIZE];
     cz_terminal_print(terminal, CZ_STYLE_PLAIN, "across: %s, ", across->path);
     write_values(across, terminal);
     fputc('\n', terminal->stream);
@@ -122,9 +122,9 @@ static void write_map(const CzSweep *sweep, CzTerminal *terminal) {
 /* Reasons why points of a map failed or are invalid, each reason once, with the first point that
  * has it. */
 static void write_reasons(const CzSweep *sweep, CzTerminal *terminal) {
-    enum { MOST_REASONS = 8 };
-    char down[CZ_FIGURE_ROOM], across[CZ_FIGURE_ROOM];
-    for (int i = 0, n = 0; i < sweep->n_point && n < MOST_REASONS; i++) {
+    enum { MAX_REASONS = 8 };
+    char down[CZ_FIGURE_SIZE], across[CZ_FIGURE_SIZE];
+    for (int i = 0, n = 0; i < sweep->n_point && n < MAX_REASONS; i++) {
         const CzSweepPoint *point = &sweep->point[i];
         bool is_known = point->state == CZ_SWEEP_DONE || point->message[0] == '\0';
         for (int k = 0; k < i && !is_known; k++)
@@ -146,7 +146,7 @@ static void write_worst(const CzSweep *sweep, CzTerminal *terminal) {
     }
     const CzSweepPoint *worst = &sweep->point[sweep->worst];
     const CzPointStyle look = cz_point_style(worst);
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     fputs("Worst: ", terminal->stream);
     for (int k = 0; k < sweep->n_axis; k++)
         cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s = %s, ", sweep->axis[k].path,
@@ -171,7 +171,7 @@ void cz_sweep_write_table(const CzReport *report, CzTerminal *terminal) {
         cz_terminal_print(terminal, CZ_STYLE_PLAIN, "Shard %d of %d: points %d to %d of %d.\n",
                           sweep->shard, sweep->n_shard, sweep->begin + 1, sweep->end,
                           sweep->n_point);
-    char sentence[CZ_SENTENCE_ROOM];
+    char sentence[CZ_SENTENCE_SIZE];
     for (int i = 0; i < sweep->n_unreached;) {
         i += cz_sweep_unreached_sentence(sweep, i, sentence);
         cz_terminal_print(terminal, CZ_STYLE_CAREFUL, "warning");

@@ -23,8 +23,8 @@ static void write_styled(CzTerminal *terminal, const char *text, CzStyle style) 
 }
 
 void cz_terminal_print(CzTerminal *terminal, CzStyle style, const char *format, ...) {
-    enum { ROOM = 4 * CZ_SENTENCE_ROOM };
-    char text[ROOM];
+    enum { TEXT_SIZE = 4 * CZ_SENTENCE_SIZE };
+    char text[TEXT_SIZE];
     const char *end = format + strlen(format);
     va_list arguments;
     va_start(arguments, format);
@@ -46,7 +46,7 @@ static const char *keep(CzReportTable *table, const char *text) {
 }
 
 void cz_table_head(CzReportTable *table, const char *head) {
-    if (table->n_column == CZ_MOST_COLUMNS)
+    if (table->n_column == CZ_MAX_COLUMNS)
         return;
     const bool is_number = head != NULL && head[0] == '>';
     table->column[table->n_column].head = head != NULL ? keep(table, head + is_number) : NULL;
@@ -56,7 +56,7 @@ void cz_table_head(CzReportTable *table, const char *head) {
 void cz_table_begin(CzReportTable *table, const char *heads) {
     memset(table, 0, sizeof *table);
     while (heads != NULL) {
-        char head[CZ_LABEL_ROOM];
+        char head[CZ_LABEL_SIZE];
         const size_t n = strcspn(heads, ";");
         snprintf(head, sizeof head, "%.*s", (int)n, heads);
         cz_table_head(table, head);
@@ -84,7 +84,7 @@ void cz_table_put(CzReportTable *table, const char *text) {
 }
 
 void cz_table_put_format(CzReportTable *table, const char *format, ...) {
-    char text[CZ_SENTENCE_ROOM];
+    char text[CZ_SENTENCE_SIZE];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
@@ -113,7 +113,7 @@ void cz_table_link(CzReportTable *table, const char *address) {
 }
 
 void cz_table_anchor(CzReportTable *table, const char *stem, int number) {
-    char id[CZ_LABEL_ROOM];
+    char id[CZ_LABEL_SIZE];
     snprintf(id, sizeof id, "%s-%d", stem, number);
     const char *kept = keep(table, id);
     if (last_cell(table) != NULL)
@@ -157,8 +157,8 @@ static void write_row(const CzReportTable *table, const CzReportCell *cell, cons
 }
 
 void cz_table_write_text(CzReportTable *table, CzTerminal *terminal) {
-    CzReportCell head[CZ_MOST_COLUMNS];
-    int width[CZ_MOST_COLUMNS] = {0};
+    CzReportCell head[CZ_MAX_COLUMNS];
+    int width[CZ_MAX_COLUMNS] = {0};
     terminal->failed |= table->arena.out_of_memory;
     if (table->arena.out_of_memory)
         fputs("no memory for this table\n", terminal->stream);

@@ -38,7 +38,7 @@ typedef struct CzReportCell {
     double share[2]; /* of a bar the first; of a range start and best */
 } CzReportCell;
 
-enum { CZ_MOST_COLUMNS = 24 };
+enum { CZ_MAX_COLUMNS = 24 };
 
 typedef struct CzReportTable {
     const char *class_name; /* on a page; NULL for none. A table of class `cards` shows on a narrow
@@ -47,7 +47,7 @@ typedef struct CzReportTable {
     struct {
         const char *head; /* NULL: the column is left out */
         bool is_number;   /* to the right */
-    } column[CZ_MOST_COLUMNS];
+    } column[CZ_MAX_COLUMNS];
     CzReportCell *cell; /* row after row, those of columns that are left out too (n_cell) */
     int n_cell;
     CzArena arena; /* of texts and cells */

@@ -38,7 +38,7 @@ static void write_range(CzMarkup *markup, const double share[2]) {
 static void write_head(CzMarkup *markup, const char *text, bool is_number) {
     cz_markup_write(markup, is_number ? "<th class='number'>" : "<th>");
     while (*text != '\0') {
-        char part[CZ_SENTENCE_ROOM];
+        char part[CZ_SENTENCE_SIZE];
         const int n = (int)strcspn(text, ".") + (strchr(text, '.') != NULL);
         snprintf(part, sizeof part, "%.*s", n, text);
         text += n;

@@ -16,7 +16,7 @@
 #include <unistd.h>
 
 static const char prefix[] = ".crushzone-";
-enum { N_SIGN = 16, MOST_TRIES = 100, MOST_MARKER = 1 << 26 /* [byte] */ };
+enum { N_SIGN = 16, MAX_TRIES = 100, MAX_MARKER = 1 << 26 /* [byte] */ };
 
 void cz_parent_of(const char *path, char parent[PATH_MAX]) {
     snprintf(parent, PATH_MAX, "%s", path);
@@ -61,7 +61,7 @@ bool cz_is_temporary(const char *name) {
 int cz_temporary_name(const char *folder, char path[PATH_MAX]) {
     struct stat info;
     char name[sizeof prefix + N_SIGN];
-    for (int attempt = 0; attempt < MOST_TRIES; attempt++) {
+    for (int attempt = 0; attempt < MAX_TRIES; attempt++) {
         choose_name(name, attempt);
         if (cz_path_in(path, folder, name, NULL) != CZ_OK)
             return ENAMETOOLONG;
@@ -82,7 +82,7 @@ char *cz_marker_read(const char *folder) {
         descriptor = open(path, O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
     struct stat info;
     if (descriptor >= 0 && fstat(descriptor, &info) == 0 && S_ISREG(info.st_mode) &&
-        info.st_size < MOST_MARKER)
+        info.st_size < MAX_MARKER)
         text = malloc((size_t)info.st_size + 1);
     while (text != NULL && n < (size_t)info.st_size) {
         const ssize_t n_read = read(descriptor, text + n, (size_t)info.st_size - n);
@@ -163,7 +163,7 @@ static void remove_file(const char *path, const struct stat *info, void *data) {
     (void)unlink(path);
 }
 
-enum { MOST_DEPTH = 3 }; /* folders around a file, as SCENARIO/iso-mme/Channel */
+enum { MAX_DEPTH = 3 }; /* folders around a file, as SCENARIO/iso-mme/Channel */
 
 /* Length of the outermost folders of a name of n bytes, as many as `depth`; 0 when it is in fewer.
  */
@@ -179,13 +179,13 @@ void cz_remove_files(const char *folder, const char *marker) {
     cz_marker_add(folder, given_up, ""); /* if this process dies, another one removes the rest */
     cz_each_temporary(folder, remove_file, NULL);
     /* Files, then the folders around them, innermost first. */
-    for (int depth = MOST_DEPTH; depth >= 0 && marker != NULL; depth--)
+    for (int depth = MAX_DEPTH; depth >= 0 && marker != NULL; depth--)
         for (const char *line = marker; *line != '\0';) {
             const size_t n = strcspn(line, "\n");
-            const size_t shown = depth == MOST_DEPTH ? n : folder_length(line, n, depth + 1);
+            const size_t shown = depth == MAX_DEPTH ? n : folder_length(line, n, depth + 1);
             if (is_inside(line, n) && shown > 0 &&
                 snprintf(path, sizeof path, "%s/%.*s", folder, (int)shown, line) < PATH_MAX)
-                (void)(depth == MOST_DEPTH ? unlink(path) : rmdir(path));
+                (void)(depth == MAX_DEPTH ? unlink(path) : rmdir(path));
             line += n + (line[n] == '\n');
         }
     if (cz_path_in(path, folder, CZ_MARKER_NAME, NULL) == CZ_OK)
@@ -316,7 +316,7 @@ static int make_locked(const char *path, FILE **stream) {
 int cz_temporary_file(const char *folder, char path[PATH_MAX], FILE **stream) {
     int why = EAGAIN;
     cz_temporary_clear(folder);
-    for (int attempt = 0; attempt < MOST_TRIES && (why == EAGAIN || why == EEXIST); attempt++) {
+    for (int attempt = 0; attempt < MAX_TRIES && (why == EAGAIN || why == EEXIST); attempt++) {
         why = cz_temporary_name(folder, path);
         if (why == 0)
             why = make_locked(path, stream);
@@ -328,7 +328,7 @@ int cz_temporary_folder(const char *folder, char path[PATH_MAX], FILE **marker) 
     char marker_path[PATH_MAX];
     int why = EAGAIN;
     cz_temporary_clear(folder);
-    for (int attempt = 0; attempt < MOST_TRIES; attempt++) {
+    for (int attempt = 0; attempt < MAX_TRIES; attempt++) {
         why = cz_temporary_name(folder, path);
         if (why != 0 || cz_path_in(marker_path, path, CZ_MARKER_NAME, NULL) != CZ_OK)
             return why != 0 ? why : ENAMETOOLONG;

@@ -29,11 +29,11 @@ const char *cz_verdict_class(CzVerdict verdict) {
 }
 
 const char *cz_screening_remark(CzVerdict verdict, int n_not_covered,
-                                char text[CZ_SCREENING_ROOM]) {
+                                char text[CZ_SCREENING_SIZE]) {
     if (!cz_verdict_is_screening(verdict, n_not_covered))
         return "";
     const bool one = n_not_covered == 1;
-    snprintf(text, CZ_SCREENING_ROOM,
+    snprintf(text, CZ_SCREENING_SIZE,
              " (screening): %d requirement%s of the profile %s not covered", n_not_covered,
              one ? "" : "s", one ? "is" : "are");
     return text;

@@ -16,8 +16,8 @@ const char *cz_verdict_class(CzVerdict verdict);
 
 /* What follows a verdict that is one by screening, as " (screening): 6 requirements of the profile
  * are not covered"; empty for others. Returns text. */
-enum { CZ_SCREENING_ROOM = 96 };
-const char *cz_screening_remark(CzVerdict verdict, int n_not_covered, char text[CZ_SCREENING_ROOM]);
+enum { CZ_SCREENING_SIZE = 96 };
+const char *cz_screening_remark(CzVerdict verdict, int n_not_covered, char text[CZ_SCREENING_SIZE]);
 
 /* What stands apart from the checks, a line each: trains that are not judged, scenarios of the
  * profile that the problem changes or that do not apply, requirements of the profile that are not

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_ROWS = 12 }; /* the rest changes less and is in the JSON document */
+enum { MAX_ROWS = 12 }; /* the rest changes less and is in the JSON document */
 
 static double largest_of(const CzVerifiedValue *value) {
     double largest = 0.0;
@@ -31,7 +31,7 @@ static int by_change(const void *a, const void *b) {
 
 static void put_row(CzReportTable *table, const CzVerification *verification,
                     const CzVerifiedValue *value) {
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     const char *unit = value->unit != NULL ? value->unit : "";
     cz_table_put(table, value->name);
     cz_table_put(table, value->where);
@@ -66,7 +66,7 @@ static void write_values(const CzVerification *verification, CzTerminal *termina
         if ((verification->methods & (1u << method)) != 0)
             cz_table_head(&table, head);
     }
-    for (size_t i = 0; i < n && i < MOST_ROWS; i++)
+    for (size_t i = 0; i < n && i < MAX_ROWS; i++)
         put_row(&table, verification, value[i]);
     cz_table_write_text(&table, terminal);
     free(value);
@@ -74,7 +74,7 @@ static void write_values(const CzVerification *verification, CzTerminal *termina
 
 void cz_verified_begin_methods(CzReportTable *table, const CzVerification *verification,
                                bool on_page) {
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     cz_table_begin(table, "method;>largest change");
     cz_table_head(table, on_page ? "check" : NULL);
     cz_table_head(table, on_page ? "scenario" : NULL);
@@ -114,7 +114,7 @@ static void write_scatter(const CzVerification *verification, FILE *stream) {
         n += changes_too_much(verification, value);
         n_scatter += value->change[CZ_METHOD_SCATTER] > verification->limit;
     }
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     if (n > 0 && verification->is_done[CZ_METHOD_SCATTER])
         fprintf(stream,
                 "%d of %d results change by more than %s; the scatter of %d of them is larger.\n",
@@ -124,7 +124,7 @@ static void write_scatter(const CzVerification *verification, FILE *stream) {
 void cz_verification_write_table(const CzReport *report, CzTerminal *terminal) {
     const CzVerification *verification = report->verification;
     CzReportTable methods;
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     cz_terminal_print(terminal, CZ_STYLE_PLAIN, "%s\n\n", cz_problem_title(report->problem));
     if (verification->n_value > 0) {
         write_values(verification, terminal);

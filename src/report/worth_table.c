@@ -49,7 +49,7 @@ static void write_conflict(const CzReport *report, size_t room, char *text) {
 
 void cz_worth_sentence(const CzReport *report, size_t room, char *text) {
     const CzOutcome *outcome = report->outcome;
-    char share[CZ_FIGURE_ROOM];
+    char share[CZ_FIGURE_SIZE];
     if (outcome->best_evaluation.violation > 0) {
         write_conflict(report, room, text);
         return;
@@ -62,7 +62,7 @@ void cz_worth_sentence(const CzReport *report, size_t room, char *text) {
 
 /* An improvement of the objective. */
 static void put_worth(CzReportTable *table, const CzReport *report, double worth) {
-    char number[CZ_FIGURE_ROOM], text[CZ_FIGURE_ROOM + 40];
+    char number[CZ_FIGURE_SIZE], text[CZ_FIGURE_SIZE + 40];
     const bool is_margin = cz_evaluator_maximises_margin(report->evaluator) ||
                            report->outcome->best_evaluation.violation > 0;
     if (is_margin)
@@ -78,7 +78,7 @@ void cz_worth_begin_table(CzReportTable *table, const CzReport *report) {
     cz_table_begin(table, "limit or bound;>relaxed by;>is worth");
     for (int i = 0; i < outcome->n_multiplier; i++) {
         const CzMultiplier *multiplier = &outcome->multiplier[i];
-        char text[CZ_FIGURE_ROOM];
+        char text[CZ_FIGURE_SIZE];
         if (multiplier->constraint >= 0) {
             cz_table_put(table,
                          cz_evaluator_constraint_name(report->evaluator, multiplier->constraint));
@@ -102,7 +102,7 @@ void cz_margins_begin_table(CzReportTable *table, const CzReport *report) {
     const CzOutcome *outcome = report->outcome;
     cz_table_begin(table, "smallest margins;>margin;raised by a variable");
     for (int i = 0; i < outcome->n_margin; i++) {
-        char text[CZ_FIGURE_ROOM];
+        char text[CZ_FIGURE_SIZE];
         cz_table_put(
             table, cz_evaluator_constraint_name(report->evaluator, outcome->margin[i].constraint));
         cz_table_put(table, cz_figure_percent(text, outcome->margin[i].margin));
@@ -113,7 +113,7 @@ void cz_margins_begin_table(CzReportTable *table, const CzReport *report) {
 void cz_relaxation_sentence(const CzReport *report, size_t room, char *text) {
     const CzOutcome *outcome = report->outcome;
     const CzRelaxation *relaxation = &outcome->relaxation;
-    char limit[CZ_FIGURE_ROOM], now[CZ_FIGURE_ROOM], share[CZ_FIGURE_ROOM];
+    char limit[CZ_FIGURE_SIZE], now[CZ_FIGURE_SIZE], share[CZ_FIGURE_SIZE];
     text[0] = '\0';
     if (relaxation->x == NULL && relaxation->n_evaluation > 0)
         snprintf(text, room,

@@ -7,7 +7,7 @@
 
 #include "base/number.h"
 
-enum { MOST_LABEL = 1000 }; /* of a label or a value [byte] */
+enum { MAX_LABEL = 1000 }; /* of a label or a value [byte] */
 
 /* The parts of a file in their order. */
 typedef enum Part { VARIABLES, RESPONSES, DERIVATIVES, COMPONENTS, EVALUATION, METADATA } Part;
@@ -125,15 +125,15 @@ static bool next_pair(Reader *reader, const char *wanted, Span *value, Span *lab
         return REFUSE(reader, line.at,
                       reader->is_aprepro ? "this line is not '{ label = value }'"
                                          : "this line is not a value and its label");
-    if (value->n < MOST_LABEL && label->n < MOST_LABEL)
+    if (value->n < MAX_LABEL && label->n < MAX_LABEL)
         return true;
     return REFUSE(reader, line.at, "this line has a value or a label of %d bytes or more",
-                  (int)MOST_LABEL);
+                  (int)MAX_LABEL);
 }
 
 /* Reads a whole number from 0 to the largest one. */
 static bool read_whole(Reader *reader, Span value, int largest, int *whole) {
-    char text[MOST_LABEL];
+    char text[MAX_LABEL];
     double number;
     memcpy(text, value.at, value.n);
     text[value.n] = '\0';

@@ -50,7 +50,7 @@ static CzStatus find_checks(const CzEvaluator *evaluator, const char *text,
         return cz_no_memory(error, "the checks");
     cz_evaluator_name_checks(evaluator, names, scenario);
     for (size_t i = 0; i < n && !is_there; i++) {
-        char word[CZ_LABEL_ROOM + 16];
+        char word[CZ_LABEL_SIZE + 16];
         is_there = reads_alike(names[i], response->name) &&
                    (response->scenario == NULL ||
                     (scenario[i] != NULL && strcmp(scenario[i], response->scenario) == 0));

@@ -25,7 +25,7 @@ const char *const cz_operations[CZ_N_OPERATION] = {
 #undef CZ_OPERATION
 };
 
-enum { MOST_ENTRIES = 1000 }; /* of a list or an object in a request */
+enum { MAX_ENTRIES = 1000 }; /* of a list or an object in a request */
 
 /* Largest whole number without gaps below it in a double: 2^53. */
 #define LARGEST_WHOLE 9007199254740992.0
@@ -61,10 +61,10 @@ static CzStatus refuse(const Reading *reading, const char *needed, const json_t 
 }
 
 static CzStatus check_number(const Reading *reading, size_t n) {
-    return n <= MOST_ENTRIES
+    return n <= MAX_ENTRIES
                ? CZ_OK
                : cz_fail(&reading->request->error, CZ_STATUS_INPUT,
-                         "'%s' has %zu entries, of at most %d", reading->key, n, MOST_ENTRIES);
+                         "'%s' has %zu entries, of at most %d", reading->key, n, MAX_ENTRIES);
 }
 
 static CzStatus no_memory(const Reading *reading) {
@@ -73,7 +73,7 @@ static CzStatus no_memory(const Reading *reading) {
 
 /* Texts are those of one line of a file. */
 static CzStatus copy_bytes(const Reading *reading, const char *bytes, const char **text) {
-    char what[CZ_FAULT_ROOM];
+    char what[CZ_FAULT_SIZE];
     size_t at;
     if (cz_text_fault(bytes, strlen(bytes), false, &at, what))
         return cz_fail(&reading->request->error, CZ_STATUS_INPUT, "a text of '%s' contains %s",

@@ -18,8 +18,8 @@ enum {
         32, /* time steps of the model between two examinations of energy and end criterion, so that
                a run with a halved time step ends at the same time (ours) */
     LANES_THAT_FILL =
-        96,             /* lanes of a batch that still fit into the first-level cache (measured) */
-    MOST_STEPS = 100000 /* of a reference within one step of the model: more occur only when events
+        96,            /* lanes of a batch that still fit into the first-level cache (measured) */
+    MAX_STEPS = 100000 /* of a reference within one step of the model: more occur only when events
                            follow one another endlessly (ours) */
 };
 #define SAMPLING 1e-3 /* of speeds for means over sliding windows [s] (ours) */
@@ -250,7 +250,7 @@ static CzStatus finish(const CzBatch *batch, bool is_time) {
 static void step_reference(CzBatch *batch, const Recording *recording, double until) {
     CzProgressOfDesign *progress = &batch->design[0];
     CzError error = {0};
-    for (int i = 0; i < MOST_STEPS && batch->time < until; ++i) {
+    for (int i = 0; i < MAX_STEPS && batch->time < until; ++i) {
         if (cz_reference_step(batch->reference, until, &error) != CZ_OK) {
             snprintf(progress->failure, sizeof progress->failure, "%.250s", error.message);
             break;
@@ -262,7 +262,7 @@ static void step_reference(CzBatch *batch, const Recording *recording, double un
         return;
     if (progress->failure[0] == '\0')
         snprintf(progress->failure, sizeof progress->failure,
-                 "the second solver needs more than %d steps within %g s at %.3f ms", MOST_STEPS,
+                 "the second solver needs more than %d steps within %g s at %.3f ms", MAX_STEPS,
                  batch->step, 1e3 * batch->time);
     progress->ended = CZ_ENDED_INCOMPLETE;
     progress->over = true;

@@ -101,7 +101,7 @@ static bool fails_to_balance(CzBatch *batch, int design) {
 /* Fails the design when its energies are inconsistent; examined at intervals and at the end.
  */
 static void check_energies(CzBatch *batch, int design) {
-    char where[CZ_FAULT_ROOM], what[CZ_FAULT_ROOM];
+    char where[CZ_FAULT_SIZE], what[CZ_FAULT_SIZE];
     CzProgressOfDesign *progress = &batch->design[design];
     const bool is_time = progress->n_look++ % LOOKS_BETWEEN_ENERGY_CHECKS == 0;
     if ((progress->over || is_time) && cz_energy_checks_fail(batch, design, where, what))

@@ -39,16 +39,16 @@
 
 /* An inconsistency and its place. */
 typedef struct Fault {
-    char *where, *what; /* (CZ_FAULT_ROOM) */
+    char *where, *what; /* (CZ_FAULT_SIZE) */
 } Fault;
 
 /* Records an inconsistency at an element of a vehicle or an interface; returns true. */
 __attribute__((format(printf, 4, 5))) static bool
 note(const Fault *fault, const char *name, const char *element, const char *format, ...) {
     va_list values;
-    snprintf(fault->where, CZ_FAULT_ROOM, "%s %s", name, element);
+    snprintf(fault->where, CZ_FAULT_SIZE, "%s %s", name, element);
     va_start(values, format);
-    vsnprintf(fault->what, CZ_FAULT_ROOM, format, values);
+    vsnprintf(fault->what, CZ_FAULT_SIZE, format, values);
     va_end(values);
     return true;
 }

@@ -197,7 +197,7 @@ CzAccount cz_springs_account(const CzBatch *batch, size_t lane);
 
 /* energy_checks.c: whether the energies of a design are inconsistent, with the place and the
  * inconsistency. */
-enum { CZ_FAULT_ROOM = 96 };
+enum { CZ_FAULT_SIZE = 96 };
 bool cz_energy_checks_fail(const CzBatch *batch, int design, char *where, char *what);
 
 /* balance.c */

@@ -149,7 +149,7 @@ static CzStatus fill_critical_forces(const CzBatch *batch, int design, CzRun *ru
 
 /* What an incomplete run still waits for, and the interface that closes fastest. */
 static CzStatus fill_awaited(const CzBatch *batch, int design, CzRun *run) {
-    enum { ROOM = 160 };
+    enum { TEXT_SIZE = 160 };
     const CzProgressOfDesign *progress = &batch->design[design];
     const char *awaited = progress->awaited != NULL
                               ? progress->awaited
@@ -162,10 +162,10 @@ static CzStatus fill_awaited(const CzBatch *batch, int design, CzRun *run) {
     const double speed = cz_closing_speed(batch, fastest, design);
     if (progress->ended != CZ_ENDED_INCOMPLETE || !(speed > CZ_CLOSING_SPEED))
         return CZ_OK;
-    char *text = cz_arena_allocate(&run->arena, 1, ROOM);
+    char *text = cz_arena_allocate(&run->arena, 1, TEXT_SIZE);
     if (text == NULL)
         return CZ_STATUS_NO_MEMORY;
-    snprintf(text, ROOM, "%s; %s closes at %.2g m/s", awaited,
+    snprintf(text, TEXT_SIZE, "%s; %s closes at %.2g m/s", awaited,
              progress->model->interface_name[fastest], speed);
     run->summary.awaited = text;
     return CZ_OK;

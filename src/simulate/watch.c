@@ -37,9 +37,8 @@ struct CzWatch {
 };
 
 enum {
-    MOST_PER_CAR = 64,
-    MOST_GUARDS =
-        CZ_ROWS_IN(CzMemory) + CZ_ROWS_IN(CzExtremes) + 4 /* and two stops of two bogies */
+    MAX_PER_CAR = 64,
+    MAX_GUARDS = CZ_ROWS_IN(CzMemory) + CZ_ROWS_IN(CzExtremes) + 4 /* and two stops of two bogies */
 };
 
 /* The guard of a row: its offset and sign. */
@@ -207,12 +206,12 @@ static void set_limits(CzWatch *list, const CzBatch *batch) {
 
 CzWatch *cz_watch_begin(const CzBatch *batch, CzArena *arena) {
     CzWatch *list = cz_arena_allocate(arena, 1, sizeof *list);
-    const size_t most = (size_t)batch->n_car * MOST_PER_CAR;
-    const size_t n_limit = (size_t)batch->dynamics->n_block * MOST_GUARDS;
+    const size_t most = (size_t)batch->n_car * MAX_PER_CAR;
+    const size_t n_limit = (size_t)batch->dynamics->n_block * MAX_GUARDS;
     if (list == NULL)
         return NULL;
     list->watched = cz_arena_allocate(arena, most, sizeof *list->watched);
-    list->guard = cz_arena_allocate(arena, MOST_GUARDS, sizeof *list->guard);
+    list->guard = cz_arena_allocate(arena, MAX_GUARDS, sizeof *list->guard);
     list->limit = cz_arena_allocate(arena, n_limit, sizeof *list->limit);
     list->open = cz_arena_allocate(arena, n_limit, sizeof *list->open);
     list->n_open = cz_arena_allocate(arena, (size_t)batch->dynamics->n_block, sizeof(int));

@@ -18,7 +18,7 @@ static const Dimension dimensions[] = {
 #include "statistics/sobol.def"
 #undef CZ_SOBOL
 };
-_Static_assert(sizeof dimensions / sizeof *dimensions == CZ_SOBOL_MOST_DRAWS - 1,
+_Static_assert(sizeof dimensions / sizeof *dimensions == CZ_SOBOL_MAX_DRAWS - 1,
                "the list has all dimensions but the first");
 
 /* The k-th direction number is m_k / 2^k; the further m_k follow from the polynomial. */

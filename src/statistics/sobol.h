@@ -6,7 +6,7 @@
  *
  * The direction numbers are those of S. Joe and F. Y. Kuo, "Constructing Sobol sequences with
  * better two-dimensional projections", SIAM J. Sci. Comput. 30 (2008), file new-joe-kuo-6.21201, of
- * which sobol.def has the first CZ_SOBOL_MOST_DRAWS dimensions. The seed shifts each dimension
+ * which sobol.def has the first CZ_SOBOL_MAX_DRAWS dimensions. The seed shifts each dimension
  * digit by digit (xor with 32 random bits), which keeps the evenness.
  */
 #ifndef CZ_STATISTICS_SOBOL_H
@@ -14,12 +14,12 @@
 
 #include <stdint.h>
 
-enum { CZ_SOBOL_MOST_DRAWS = 256 };
+enum { CZ_SOBOL_MAX_DRAWS = 256 };
 
 /* The first 32 binary digits of the point of that number, without a shift. */
 uint32_t cz_sobol_digits(int draw, uint32_t point);
 
-/* Values of one draw in all samples, within (0, 1); u is (n), draw less than CZ_SOBOL_MOST_DRAWS.
+/* Values of one draw in all samples, within (0, 1); u is (n), draw less than CZ_SOBOL_MAX_DRAWS.
  */
 void cz_sobol_draw(uint64_t seed, int draw, int n, double *u);
 

@@ -6,7 +6,7 @@
 
 #include "base/suggest.h"
 
-enum { MOST_BELOW_TITLES = 3 };
+enum { MAX_BELOW_TITLES = 3 };
 
 bool cz_reading_list_lines(CzArena *arena, CzCurveReading *reading) {
     const int n_line = reading->source.n_line;
@@ -71,7 +71,7 @@ static bool is_of_units(const CzCurveReading *reading, const char *line, bool wi
 static bool look_below(CzCurveReading *reading, int line) {
     reading->units = NULL;
     reading->data = line;
-    for (int i = 0; i < MOST_BELOW_TITLES; i++) {
+    for (int i = 0; i < MAX_BELOW_TITLES; i++) {
         reading->data = cz_reading_next(reading, reading->data + 1);
         if (reading->data == reading->source.n_line)
             return false;
@@ -147,7 +147,7 @@ bool cz_reading_has_whole_quotes(const CzCurveReading *reading, int line) {
 
 /* Suggests the title that is nearest to a mistyped one; false when none is near. */
 static bool suggest(const CzCurveReading *reading, const char *typed) {
-    char title[CZ_MOST_FIELD_TEXT];
+    char title[CZ_MAX_FIELD_TEXT];
     CzSuggestion nearest = {0};
     CzFieldWalk walk = cz_fields_begin(reading->titles, reading->separator);
     while (cz_fields_next(&walk))
@@ -227,7 +227,7 @@ static bool begin_without_titles(CzCurveReading *reading) {
 /* Information in the file on the unit of a column. */
 typedef struct Units {
     CzField field, below; /* the title, and the field of the row of units */
-    char title[CZ_MOST_FIELD_TEXT];
+    char title[CZ_MAX_FIELD_TEXT];
     const CzUnit *in_title, *in_row;
     bool has_unknown; /* the row of units has a field here that is not a unit */
 } Units;
@@ -256,7 +256,7 @@ static Units units_of(const CzCurveReading *reading, int i) {
 /* Reports a mistake about the unit of a column at its place: in the title or in the row below. */
 static bool refuse_unit(const CzCurveReading *reading, const CzCurveColumn *column,
                         const Units *units) {
-    char list[120], below[CZ_MOST_FIELD_TEXT], sentence[CZ_MOST_FIELD_TEXT + 200];
+    char list[120], below[CZ_MAX_FIELD_TEXT], sentence[CZ_MAX_FIELD_TEXT + 200];
     const CzUnit *unit = units->in_title != NULL ? units->in_title : units->in_row;
     const bool is_in_row =
         column->unit == NULL && units->in_title == NULL && (unit != NULL || units->has_unknown);

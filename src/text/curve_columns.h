@@ -17,10 +17,10 @@ typedef struct CzCurveRequest {
 /* The points in the order of the file. */
 typedef struct CzCurvePoints {
     int n;
-    double *x, *y;                     /* [SI] (n) */
-    int *line;                         /* line of each, counted from 1 (n) */
-    char title[2][CZ_MOST_FIELD_TEXT]; /* of both columns; "" without titles */
-    double unit[2];                    /* SI values of the units */
+    double *x, *y;                    /* [SI] (n) */
+    int *line;                        /* line of each, counted from 1 (n) */
+    char title[2][CZ_MAX_FIELD_TEXT]; /* of both columns; "" without titles */
+    double unit[2];                   /* SI values of the units */
     const char *other_unit[2]; /* unit in the file that differs from the requested one, or NULL */
     const CzSource *source;
 } CzCurvePoints;

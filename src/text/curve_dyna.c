@@ -8,13 +8,13 @@
 
 #include "text/curve_number.h"
 
-enum { CARD_FIELD = 10, POINT_FIELD = 20, N_CARD_FIELD = 6, MOST_CURVES = 1000 };
+enum { CARD_FIELD = 10, POINT_FIELD = 20, N_CARD_FIELD = 6, MAX_CURVES = 1000 };
 
 /* A curve of the file. Lines are counted from 0. */
 typedef struct Definition {
     int keyword, card, end; /* line of the keyword, of the first card, and behind the curve */
-    char title[CZ_MOST_FIELD_TEXT]; /* empty when it has none */
-    char number[CZ_MOST_FIELD_TEXT];
+    char title[CZ_MAX_FIELD_TEXT]; /* empty when it has none */
+    char number[CZ_MAX_FIELD_TEXT];
 } Definition;
 
 /* ---- lines ---- */
@@ -69,7 +69,7 @@ static bool take_field(const char *line, int index, int width, CzField *field) {
     return true;
 }
 
-static void copy_trimmed(char text[CZ_MOST_FIELD_TEXT], const char *line) {
+static void copy_trimmed(char text[CZ_MAX_FIELD_TEXT], const char *line) {
     const size_t blank = strspn(line, " \t");
     size_t n = strlen(line + blank);
     while (n > 0 && isspace((unsigned char)line[blank + n - 1]))
@@ -184,7 +184,7 @@ static bool find_definition(const CzCurveReading *reading, Definition *definitio
 /* Reads a field that is a number; a blank one keeps the value. */
 static bool read_number(const CzCurveReading *reading, int line, const CzField *field,
                         const char *name, double *value) {
-    char text[CZ_MOST_FIELD_TEXT];
+    char text[CZ_MAX_FIELD_TEXT];
     if (field->n == 0 || cz_curve_number_read(field->text, field->n, '.', value))
         return true;
     const bool has_blank = memchr(field->text, ' ', field->n) != NULL;
@@ -271,7 +271,7 @@ static void find_titles(CzCurveReading *reading, const Definition *definition) {
             continue;
         text += 1 + (text[1] == '#');
         const char separator = strchr(text, ',') != NULL ? ',' : ' ';
-        char title[CZ_MOST_FIELD_TEXT];
+        char title[CZ_MAX_FIELD_TEXT];
         CzField field;
         bool has_units = cz_fields_count(text, separator).filled == 2;
         for (int i = 0; i < 2 && has_units; i++)

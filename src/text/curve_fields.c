@@ -162,9 +162,9 @@ bool cz_field_is_number(const CzField *field) {
     return cz_curve_number_sign(field->text, field->n) != CZ_SIGN_NO_NUMBER;
 }
 
-const char *cz_field_text(const CzField *field, char text[CZ_MOST_FIELD_TEXT]) {
-    snprintf(text, CZ_MOST_FIELD_TEXT, "%.*s",
-             (int)(field->n < CZ_MOST_FIELD_TEXT ? field->n : CZ_MOST_FIELD_TEXT - 1), field->text);
+const char *cz_field_text(const CzField *field, char text[CZ_MAX_FIELD_TEXT]) {
+    snprintf(text, CZ_MAX_FIELD_TEXT, "%.*s",
+             (int)(field->n < CZ_MAX_FIELD_TEXT ? field->n : CZ_MAX_FIELD_TEXT - 1), field->text);
     return text;
 }
 
@@ -191,7 +191,7 @@ char cz_line_announced_separator(const char *line) {
 
 /* ---- the separator ---- */
 
-enum { LOOKED_AT = 4000, MOST_FIELDS = 64 };
+enum { LOOKED_AT = 4000, MAX_FIELDS = 64 };
 
 /* How well a separator splits the lines. */
 typedef struct Score {
@@ -200,7 +200,7 @@ typedef struct Score {
 } Score;
 
 static Score score(const CzSource *source, char separator) {
-    int with[MOST_FIELDS + 1] = {0};
+    int with[MAX_FIELDS + 1] = {0};
     Score found = {0};
     const int n_line = source->n_line < LOOKED_AT ? source->n_line : LOOKED_AT;
     for (int i = 0; i < n_line; i++) {
@@ -208,14 +208,14 @@ static Score score(const CzSource *source, char separator) {
             continue;
         CzFieldWalk walk = cz_fields_begin(source->line[i], separator);
         int n_text = 0;
-        while (walk.n < MOST_FIELDS && cz_fields_next(&walk))
+        while (walk.n < MAX_FIELDS && cz_fields_next(&walk))
             n_text += walk.field.n > 0 && !cz_field_is_number(&walk.field);
         if (walk.n - n_text < 2)
             continue;
         with[walk.n]++;
         found.texts += n_text;
     }
-    for (int n = 2; n <= MOST_FIELDS; n++)
+    for (int n = 2; n <= MAX_FIELDS; n++)
         found.lines = with[n] > found.lines ? with[n] : found.lines;
     return found;
 }

@@ -9,7 +9,7 @@
 
 #include "text/source.h"
 
-enum { CZ_MOST_FIELD_TEXT = 128 }; /* of a field that is kept as text, with its end [byte] */
+enum { CZ_MAX_FIELD_TEXT = 128 }; /* of a field that is kept as text, with its end [byte] */
 
 /* Splits a text into lines. `source` has name, folder and order; its lines are in the arena. A
  * mistake is added when the content is not text. False in that case, and without memory. */
@@ -49,7 +49,7 @@ CzFieldCount cz_fields_count(const char *line, char separator);
 bool cz_field_is_number(const CzField *field);
 
 /* Copies a field as text, cut where it is too long. */
-const char *cz_field_text(const CzField *field, char text[CZ_MOST_FIELD_TEXT]);
+const char *cz_field_text(const CzField *field, char text[CZ_MAX_FIELD_TEXT]);
 
 /* Whether a line has only blanks and separators. */
 bool cz_line_is_empty(const char *line);

@@ -11,7 +11,7 @@
 #include "text/curve_mme.h"
 #include "text/curve_number.h"
 
-enum { MOST_LINES = 1000000 };
+enum { MAX_LINES = 1000000 };
 
 /* ---- the decimal sign ---- */
 
@@ -40,17 +40,17 @@ static Evidence collect(const CzCurveReading *reading, bool of_wanted) {
 }
 
 /* Writes a number with a given decimal sign as a plain one, for a message. */
-static void print_reading(const CzField *field, char decimal, char text[CZ_MOST_FIELD_TEXT]) {
+static void print_reading(const CzField *field, char decimal, char text[CZ_MAX_FIELD_TEXT]) {
     double value = 0.0;
     cz_curve_number_read(field->text, field->n, decimal, &value);
-    snprintf(text, CZ_MOST_FIELD_TEXT, "%.10g", value);
+    snprintf(text, CZ_MAX_FIELD_TEXT, "%.10g", value);
     for (char *c = text; *c != '\0'; c++)
         *c = *c == ',' ? '.' : *c;
 }
 
 static bool refuse_open(const CzCurveReading *reading, const Evidence *evidence,
                         CzDecimalSign sign) {
-    char text[CZ_MOST_FIELD_TEXT], point[CZ_MOST_FIELD_TEXT], comma[CZ_MOST_FIELD_TEXT];
+    char text[CZ_MAX_FIELD_TEXT], point[CZ_MAX_FIELD_TEXT], comma[CZ_MAX_FIELD_TEXT];
     const CzField *field = &evidence->field[sign];
     print_reading(field, '.', point);
     print_reading(field, ',', comma);
@@ -64,7 +64,7 @@ static bool refuse_open(const CzCurveReading *reading, const Evidence *evidence,
 }
 
 static bool refuse_both(const CzCurveReading *reading, const Evidence *evidence) {
-    char point[CZ_MOST_FIELD_TEXT], comma[CZ_MOST_FIELD_TEXT];
+    char point[CZ_MAX_FIELD_TEXT], comma[CZ_MAX_FIELD_TEXT];
     const bool comma_is_later = evidence->line[CZ_SIGN_COMMA] > evidence->line[CZ_SIGN_POINT];
     const CzDecimalSign later = comma_is_later ? CZ_SIGN_COMMA : CZ_SIGN_POINT;
     cz_mistake_at(
@@ -136,7 +136,7 @@ static bool is_not_finite(const char *text) {
 }
 
 static void refuse_number(const CzCurveReading *reading, int line, int i, const CzField *field) {
-    char text[CZ_MOST_FIELD_TEXT];
+    char text[CZ_MAX_FIELD_TEXT];
     double value;
     const char *name = reading->request->column[i].title != NULL ? reading->request->column[i].title
                                                                  : reading->request->column[i].name;
@@ -248,9 +248,9 @@ static bool make_room(CzArena *arena, int n, CzCurvePoints *points) {
 static bool begin(CzArena *arena, const char *text, size_t n_byte, CzCurveReading *reading) {
     if (!cz_curve_lines(arena, reading->mistakes, text, n_byte, &reading->source))
         return false;
-    if (reading->source.n_line > MOST_LINES) {
-        cz_mistake_at(reading->mistakes, &reading->source, MOST_LINES, 1,
-                      "a curve has at most %d lines", (int)MOST_LINES);
+    if (reading->source.n_line > MAX_LINES) {
+        cz_mistake_at(reading->mistakes, &reading->source, MAX_LINES, 1,
+                      "a curve has at most %d lines", (int)MAX_LINES);
         return false;
     }
     if (!cz_reading_list_lines(arena, reading))

@@ -62,7 +62,7 @@ bool cz_mme_is_channel(const CzSource *source) {
 /* Reads a number of the head; a mistake when it has none. */
 static bool read_key(const CzCurveReading *reading, int n, const char *key, double *number) {
     CzField value;
-    char text[CZ_MOST_FIELD_TEXT];
+    char text[CZ_MAX_FIELD_TEXT];
     const int line = find_key(&reading->source, n, key, &value);
     if (line >= 0 && cz_curve_number_read(value.text, value.n, '.', number))
         return true;
@@ -107,7 +107,7 @@ static bool read_unit(const CzCurveReading *reading, int n) {
     const CzCurveColumn *column = &reading->request->column[1];
     CzCurvePoints *points = reading->points;
     CzField value = {.text = "", .column = 1};
-    char text[CZ_MOST_FIELD_TEXT], list[120];
+    char text[CZ_MAX_FIELD_TEXT], list[120];
     const int line = find_key(&reading->source, n, "Unit", &value);
     const CzUnit *own =
         line >= 0 ? cz_curve_unit_find(CZ_N_DIMENSION, cz_field_text(&value, text)) : NULL;
@@ -143,7 +143,7 @@ static bool read_values(CzCurveReading *reading, int n, double first, double int
     int n_sample = 0;
     for (int line = n; line < source->n_line; line++) {
         CzField field;
-        char text[CZ_MOST_FIELD_TEXT];
+        char text[CZ_MAX_FIELD_TEXT];
         double value;
         if (cz_line_is_empty(source->line[line]))
             continue;
@@ -185,7 +185,7 @@ bool cz_mme_read_channel(CzCurveReading *reading) {
     reading->points->unit[0] = in > 0.0 ? 1.0 / in : 1.0;
     if (!read_times(reading, n, &first, &interval) || !read_unit(reading, n))
         return false;
-    snprintf(reading->points->title[0], CZ_MOST_FIELD_TEXT, "time");
+    snprintf(reading->points->title[0], CZ_MAX_FIELD_TEXT, "time");
     if (find_key(&reading->source, n, "Name of the channel", &name) >= 0)
         cz_field_text(&name, reading->points->title[1]);
     return read_values(reading, n, first, interval);
@@ -203,7 +203,7 @@ typedef struct Entry {
     int line; /* counted from 0 */
     char number[8];
     char code[CZ_MME_CODE + 1];
-    char name[CZ_MOST_FIELD_TEXT]; /* the code when it has none */
+    char name[CZ_MAX_FIELD_TEXT]; /* the code when it has none */
 } Entry;
 
 /* The list of channels of a test. */

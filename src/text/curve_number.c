@@ -5,17 +5,17 @@
 
 #include "base/number.h"
 
-enum { MOST_MARKS = 16, LONGEST = 64 };
+enum { MAX_MARKS = 16, LONGEST = 64 };
 
 /* The parts of a number: digits, with the marks between them. */
 typedef struct Parts {
     char digits[LONGEST]; /* sign, digits, and 'e' with the exponent; without marks */
     int n;
     int n_mark;
-    char mark[MOST_MARKS]; /* '.', ',' or '\'' for signs that only group digits */
-    int at[MOST_MARKS];    /* digits of the mantissa before each */
-    int n_mantissa;        /* digits */
-    int first;             /* index of the first digit of the mantissa */
+    char mark[MAX_MARKS]; /* '.', ',' or '\'' for signs that only group digits */
+    int at[MAX_MARKS];    /* digits of the mantissa before each */
+    int n_mantissa;       /* digits */
+    int first;            /* index of the first digit of the mantissa */
     bool has_exponent;
 } Parts;
 
@@ -82,7 +82,7 @@ static bool split_number(const char *text, size_t n, Parts *parts) {
             if (!put(parts, text[i++]))
                 return false;
             parts->n_mantissa++;
-        } else if (is_mark && parts->n_mark < MOST_MARKS) {
+        } else if (is_mark && parts->n_mark < MAX_MARKS) {
             parts->at[parts->n_mark] = parts->n_mantissa;
             parts->mark[parts->n_mark++] = group > 0 ? '\'' : text[i];
             i += group > 0 ? group : 1;

@@ -27,18 +27,18 @@ const CzUnit *cz_curve_unit_find(CzDimension dimension, const char *spelling) {
 }
 
 /* Copies a part of a title without the blanks and brackets around it. */
-static void copy_bare(const char *start, size_t n, char text[CZ_MOST_FIELD_TEXT]) {
+static void copy_bare(const char *start, size_t n, char text[CZ_MAX_FIELD_TEXT]) {
     while (n > 0 && strchr(" \t[(\"", start[0]) != NULL) {
         start++;
         n--;
     }
     while (n > 0 && strchr(" \t])\"", start[n - 1]) != NULL)
         n--;
-    snprintf(text, CZ_MOST_FIELD_TEXT, "%.*s", (int)(n < CZ_MOST_FIELD_TEXT ? n : 0), start);
+    snprintf(text, CZ_MAX_FIELD_TEXT, "%.*s", (int)(n < CZ_MAX_FIELD_TEXT ? n : 0), start);
 }
 
 const CzUnit *cz_curve_unit_of_title(const char *title, size_t *n_title) {
-    char rest[CZ_MOST_FIELD_TEXT];
+    char rest[CZ_MAX_FIELD_TEXT];
     for (const char *at = strpbrk(title, "_[( /,:"); at != NULL; at = strpbrk(at + 1, "_[( /,:")) {
         copy_bare(at + 1, strlen(at + 1), rest);
         const CzUnit *unit = cz_curve_unit_find(CZ_N_DIMENSION, rest);
@@ -57,7 +57,7 @@ const CzUnit *cz_curve_unit_of_title(const char *title, size_t *n_title) {
 }
 
 const CzUnit *cz_curve_unit_alone(const CzField *field) {
-    char text[CZ_MOST_FIELD_TEXT];
+    char text[CZ_MAX_FIELD_TEXT];
     copy_bare(field->text, field->n, text);
     return cz_curve_unit_find(CZ_N_DIMENSION, text);
 }
@@ -131,7 +131,7 @@ static Rank rank_of_title(const char *wanted, const char *title) {
 }
 
 static Rank rank_of(const CzCurveColumn *column, const CzField *title, const CzField *below) {
-    char text[CZ_MOST_FIELD_TEXT];
+    char text[CZ_MAX_FIELD_TEXT];
     cz_field_text(title, text);
     if (column->title != NULL)
         return rank_of_title(column->title, text);

@@ -21,7 +21,7 @@ bool cz_range_parse(const char *text, CzRange *range) {
         return false;
     char *end = NULL;
     const long n = strtol(third + 1, &end, 10);
-    if (end == third + 1 || *end != '\0' || n < 2 || n > CZ_MOST_IN_RANGE)
+    if (end == third + 1 || *end != '\0' || n < 2 || n > CZ_MAX_IN_RANGE)
         return false;
     range->n = (int)n;
     return true;

@@ -4,12 +4,12 @@
 
 #include <stdbool.h>
 
-enum { CZ_MOST_IN_RANGE = 500 };
+enum { CZ_MAX_IN_RANGE = 500 };
 
 /* The values include both ends. */
 typedef struct CzRange {
     double from, to;
-    int n; /* 2 to CZ_MOST_IN_RANGE */
+    int n; /* 2 to CZ_MAX_IN_RANGE */
 } CzRange;
 
 /* Reads a text such as "5:40:8"; false when it is not a range. */

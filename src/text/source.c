@@ -110,7 +110,7 @@ static FILE *open_file(const char *path, const char **why) {
         *why = "it is a folder";
     else if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode))
         *why = "it is not a regular file";
-    else if (status.st_size > CZ_MOST_BYTES)
+    else if (status.st_size > CZ_MAX_BYTES)
         *why = "it is larger than 16 MiB";
     if (*why != NULL)
         return NULL;
@@ -158,15 +158,15 @@ CzSource *cz_sources_read(CzSources *sources, CzMistakes *mistakes, const char *
             mistakes->arena->out_of_memory = true;
         return NULL;
     }
-    *text = cz_stream_read(stream, CZ_MOST_BYTES, n_byte);
-    if (*text != NULL && *n_byte <= CZ_MOST_BYTES) {
+    *text = cz_stream_read(stream, CZ_MAX_BYTES, n_byte);
+    if (*text != NULL && *n_byte <= CZ_MAX_BYTES) {
         const size_t n_mark = cz_source_mark(*text, *n_byte);
         *n_byte -= n_mark;
         memmove(*text, *text + n_mark, *n_byte);
     }
     if (*text != NULL && ferror(stream))
         why = "it cannot be read completely";
-    else if (*text != NULL && *n_byte > CZ_MOST_BYTES)
+    else if (*text != NULL && *n_byte > CZ_MAX_BYTES)
         why = "it is larger than 16 MiB";
     else if (*text != NULL && *n_byte == 0)
         why = "it is empty";
@@ -197,7 +197,7 @@ bool cz_source_is_utf8(const char *text, size_t n_byte) {
 
 bool cz_source_is_text(CzMistakes *mistakes, const CzSource *source, const char *text,
                        size_t n_byte) {
-    char what[CZ_FAULT_ROOM];
+    char what[CZ_FAULT_SIZE];
     size_t at;
     if (!cz_text_fault(text, n_byte, true, &at, what))
         return true;

@@ -6,7 +6,7 @@
 
 #include "text/mistakes.h"
 
-enum { CZ_MOST_BYTES = 16 * 1024 * 1024 }; /* of one file */
+enum { CZ_MAX_BYTES = 16 * 1024 * 1024 }; /* of one file */
 
 /* All sources of a problem. Zero-initialise it and set arena and hash. */
 typedef struct CzSources {

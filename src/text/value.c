@@ -104,8 +104,8 @@ const char *cz_value_text(CzValue value) {
         cz_mistake(value.mistakes, value.node, value.trail, "'%s' is an empty text", value.key);
         return NULL;
     }
-    if (strlen(text) > CZ_MOST_TEXT)
+    if (strlen(text) > CZ_MAX_TEXT)
         cz_mistake(value.mistakes, value.node, value.trail, "'%s' has more than %d bytes",
-                   value.key, (int)CZ_MOST_TEXT);
+                   value.key, (int)CZ_MAX_TEXT);
     return text;
 }

@@ -15,7 +15,7 @@
 
 #include <yaml.h>
 
-enum { DEEPEST = 32, MOST_NODES = 250000, MOST_ENTRIES = 20000, MOST_KEYS = 2000 };
+enum { DEEPEST = 32, MAX_NODES = 250000, MAX_ENTRIES = 20000, MAX_KEYS = 2000 };
 
 #define USE_A_PART CZ_HELP "name a part under 'parts:' and take it with 'use:'"
 
@@ -113,9 +113,9 @@ static void refuse_decorations(Document *document, const yaml_char_t *anchor,
 }
 
 static CzNode *node_create(Document *document, CzNodeKind kind) {
-    if (++document->n_node > MOST_NODES) {
+    if (++document->n_node > MAX_NODES) {
         if (!document->failed)
-            refuse(document, "the file has more than %d values", (int)MOST_NODES);
+            refuse(document, "the file has more than %d values", (int)MAX_NODES);
         document->failed = true;
         return NULL;
     }
@@ -146,7 +146,7 @@ static CzNode *read_text(Document *document) {
         fail_without_memory(document);
         return node;
     }
-    char what[CZ_FAULT_ROOM];
+    char what[CZ_FAULT_SIZE];
     size_t at;
     n_byte = cz_text_one_line(text, n_byte); /* blocks of text have several lines */
     if (cz_text_fault(text, n_byte, false, &at, what)) {
@@ -192,9 +192,9 @@ static CzNode *read_list(Document *document, int depth) {
         CzNode *item = read_node(document, depth + 1);
         if (item == NULL || !push(document, list, (CzEntry){.value = item}))
             return NULL;
-        if (list->n_entry > MOST_ENTRIES) {
+        if (list->n_entry > MAX_ENTRIES) {
             cz_mistake(document->mistakes, item, NULL, "a list has more than %d items",
-                       (int)MOST_ENTRIES);
+                       (int)MAX_ENTRIES);
             document->failed = true;
         }
     }
@@ -271,9 +271,9 @@ static CzNode *read_mapping(Document *document, int depth) {
             return NULL;
         at_hand.last_key = key;
         at_hand.last_value = value;
-        if (++n_key > MOST_KEYS) {
+        if (++n_key > MAX_KEYS) {
             cz_mistake(document->mistakes, key, NULL, "a mapping has more than %d keys",
-                       (int)MOST_KEYS);
+                       (int)MAX_KEYS);
             document->failed = true;
         }
     }

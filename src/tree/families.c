@@ -10,7 +10,7 @@
 #include "text/range.h"
 #include "tree/merge.h"
 
-enum { MOST_MEMBERS = 500, MOST_SCENARIOS = 10000, MOST_SWEPT = 8, LONGEST_MEMBER = 160 };
+enum { MAX_MEMBERS = 500, MAX_SCENARIOS = 10000, MAX_SWEPT = 8, LONGEST_MEMBER = 160 };
 
 /* One key of `sweep` with its values. */
 typedef struct Swept {
@@ -24,7 +24,7 @@ typedef struct Family {
     const CzNode *node; /* the scenario as written */
     const CzEntry *sweep;
     int n_swept;
-    Swept swept[MOST_SWEPT];
+    Swept swept[MAX_SWEPT];
     int n_member;
 } Family;
 
@@ -82,10 +82,10 @@ static bool is_given_twice(Family *family, const CzEntry *swept) {
 static bool read_sweep(Family *family) {
     CzReader *reader = family->reader;
     const CzNode *sweep = family->sweep->value;
-    if (sweep->kind != CZ_NODE_MAPPING || sweep->n_entry == 0 || sweep->n_entry > MOST_SWEPT) {
+    if (sweep->kind != CZ_NODE_MAPPING || sweep->n_entry == 0 || sweep->n_entry > MAX_SWEPT) {
         cz_mistake(&reader->mistakes, sweep, family->sweep->trail,
                    "'sweep' needs a mapping of 1 to %d keys of a scenario with a list each",
-                   (int)MOST_SWEPT);
+                   (int)MAX_SWEPT);
         return false;
     }
     family->n_member = 1;
@@ -100,9 +100,9 @@ static bool read_sweep(Family *family) {
         if (is_given_twice(family, swept->entry) || !list_values(family, swept))
             return false;
         family->n_member *= swept->n_value;
-        if (family->n_member > MOST_MEMBERS) {
+        if (family->n_member > MAX_MEMBERS) {
             cz_mistake(&reader->mistakes, family->sweep->key, family->sweep->trail,
-                       "a sweep has at most %d members", (int)MOST_MEMBERS);
+                       "a sweep has at most %d members", (int)MAX_MEMBERS);
             return false;
         }
     }
@@ -165,11 +165,11 @@ typedef struct Scenarios {
 
 /* Whether n more scenarios are allowed. */
 static bool may_add(Scenarios *scenarios, int n, const CzNode *place) {
-    scenarios->is_full = scenarios->n + n > MOST_SCENARIOS;
+    scenarios->is_full = scenarios->n + n > MAX_SCENARIOS;
     if (scenarios->is_full)
         cz_mistake(&scenarios->reader->mistakes, place, NULL,
                    "the problem has more than %d scenarios, including members of sweeps",
-                   (int)MOST_SCENARIOS);
+                   (int)MAX_SCENARIOS);
     return !scenarios->is_full;
 }
 

@@ -68,9 +68,9 @@ static void add_part(Loader *loader, const CzEntry *entry) {
 }
 
 static bool is_part(CzReader *reader, const CzEntry *entry) {
-    if (strlen(entry->key->text) > CZ_MOST_LABEL)
+    if (strlen(entry->key->text) > CZ_MAX_LABEL)
         cz_mistake(&reader->mistakes, entry->key, NULL, "the name of a part has more than %d bytes",
-                   (int)CZ_MOST_LABEL);
+                   (int)CZ_MAX_LABEL);
     if (entry->value->kind == CZ_NODE_MAPPING)
         return true;
     cz_mistake(&reader->mistakes, entry->value, NULL, "part '%s' must be a mapping, but this is %s",

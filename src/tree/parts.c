@@ -39,10 +39,10 @@ static int measure_node(Measuring *measuring, const CzNode *node, int level) {
         if (part != NULL && measuring->progress[part - measuring->tree->part] == BEING_MEASURED)
             cz_mistake(mistakes, value, NULL, "part '%s' uses itself", part->name);
         else if (part != NULL) /* the first level that is too deep counts, but is not followed */
-            here = 1 + (level <= CZ_MOST_NESTED ? measure_part(measuring, part, level + 1) : 0);
-        if (part != NULL && (here == CZ_MOST_NESTED + 1 || level > CZ_MOST_NESTED))
+            here = 1 + (level <= CZ_MAX_NESTED ? measure_part(measuring, part, level + 1) : 0);
+        if (part != NULL && (here == CZ_MAX_NESTED + 1 || level > CZ_MAX_NESTED))
             cz_mistake(mistakes, value, NULL, "more than %d parts use one another in a chain",
-                       (int)CZ_MOST_NESTED);
+                       (int)CZ_MAX_NESTED);
         deepest = here > deepest ? here : deepest;
     }
     return deepest;
@@ -99,10 +99,10 @@ static bool may_use(CzReader *reader, const CzPart *part, const CzNode *used,
         cz_mistake(&reader->mistakes, used, use_trail, "part '%s' uses itself", part->name);
         return false;
     }
-    if (n_part <= CZ_MOST_NESTED)
+    if (n_part <= CZ_MAX_NESTED)
         return true;
     cz_mistake(&reader->mistakes, used, use_trail, "more than %d parts use one another in a chain",
-               (int)CZ_MOST_NESTED);
+               (int)CZ_MAX_NESTED);
     return false;
 }
 

@@ -5,7 +5,7 @@
 #include "base/index.h"
 #include "tree/reader.h"
 
-enum { CZ_MOST_NESTED = 40 }; /* parts that use one another */
+enum { CZ_MAX_NESTED = 40 }; /* parts that use one another */
 
 typedef struct CzPart {
     const char *name;

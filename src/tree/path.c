@@ -12,13 +12,13 @@
 #include "tree/segments.h"
 #include "tree/trains.h"
 
-enum { LONGEST_NAME = CZ_LABEL_ROOM, MOST_MATCHES = 10000, MOST_SET = 20000 };
+enum { LONGEST_NAME = CZ_LABEL_SIZE, MAX_MATCHES = 10000, MAX_SET = 20000 };
 
 typedef struct {
     CzReader *reader;
     const CzTree *tree;
     int n_segment;
-    CzSegment segment[CZ_MOST_SEGMENTS];
+    CzSegment segment[CZ_MAX_SEGMENTS];
     const CzNode *place; /* of the path */
     const CzPut *put;
     int n_found;
@@ -28,7 +28,7 @@ typedef struct {
     bool in_all_parts;  /* the path names all parts, one after the other */
     const CzTrail *set; /* trail of a value that is set: it belongs to the part, but has no origin
                            in it */
-    char at[CZ_PATH_ROOM]; /* concrete path so far */
+    char at[CZ_PATH_SIZE]; /* concrete path so far */
 } Walk;
 
 /* Progress along the path. */
@@ -99,10 +99,10 @@ static size_t enter(Walk *walk, const char *name, int index) {
 /* Notes one more place that is set; false when there are too many. */
 static bool may_put(Walk *walk) {
     walk->n_found++;
-    if (++walk->reader->n_set == MOST_SET)
+    if (++walk->reader->n_set == MAX_SET)
         cz_mistake(&walk->reader->mistakes, walk->place, NULL,
-                   "the settings change more than %d values", (int)MOST_SET);
-    walk->failed |= walk->reader->n_set >= MOST_SET;
+                   "the settings change more than %d values", (int)MAX_SET);
+    walk->failed |= walk->reader->n_set >= MAX_SET;
     return !walk->failed;
 }
 
@@ -122,13 +122,13 @@ static CzNode *number_node(Walk *walk, const char *text) {
 static const CzNode *marker_at(Walk *walk) {
     CzMatches *matches = walk->put->matches;
     walk->n_found++;
-    if (matches->n_match == MOST_MATCHES) {
+    if (matches->n_match == MAX_MATCHES) {
         if (!walk->failed)
             cz_mistake(&walk->reader->mistakes, walk->place, NULL,
-                       "the path names more than %d places", (int)MOST_MATCHES);
+                       "the path names more than %d places", (int)MAX_MATCHES);
         walk->failed = true;
     }
-    char(*places)[CZ_PATH_ROOM] = cz_arena_grow(&walk->reader->arena, matches->place,
+    char(*places)[CZ_PATH_SIZE] = cz_arena_grow(&walk->reader->arena, matches->place,
                                                 matches->n_match, sizeof *matches->place);
     CzNode *marker = number_node(walk, "0");
     if (places == NULL || marker == NULL)
@@ -136,7 +136,7 @@ static const CzNode *marker_at(Walk *walk) {
     matches->place = places;
     if (walk->failed)
         return marker;
-    memcpy(matches->place[matches->n_match], walk->at, CZ_PATH_ROOM);
+    memcpy(matches->place[matches->n_match], walk->at, CZ_PATH_SIZE);
     marker->match = ++matches->n_match;
     return marker;
 }

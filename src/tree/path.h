@@ -14,7 +14,7 @@
 /* The concrete path of each match. */
 typedef struct CzMatches {
     int n_match;
-    char (*place)[CZ_PATH_ROOM]; /* (n_match) */
+    char (*place)[CZ_PATH_SIZE]; /* (n_match) */
 } CzMatches;
 
 /* What is put at a place: one of these. */

@@ -27,7 +27,7 @@ static const char *read_segment(CzSegment *segment, const char *path, const char
     size_t n = 0;
     while (!is_end(path[n]))
         n++;
-    if (n == 0 || n >= CZ_LABEL_ROOM)
+    if (n == 0 || n >= CZ_LABEL_SIZE)
         return NULL;
     memcpy(segment->name, path, n);
     segment->name[n] = '\0';
@@ -35,12 +35,12 @@ static const char *read_segment(CzSegment *segment, const char *path, const char
     return path + n;
 }
 
-int cz_segments_read(const char *path, CzSegment segment[CZ_MOST_SEGMENTS]) {
+int cz_segments_read(const char *path, CzSegment segment[CZ_MAX_SEGMENTS]) {
     int n = 0;
     const char *at = *path != '\0' ? path : NULL;
     while (at != NULL && *at != '\0') {
         const bool is_first = n == 0, is_point = *at == '.' && !is_first;
-        const bool is_segment = (is_first || is_point || *at == '[') && n < CZ_MOST_SEGMENTS;
+        const bool is_segment = (is_first || is_point || *at == '[') && n < CZ_MAX_SEGMENTS;
         at = is_segment ? read_segment(&segment[n++], at + is_point, path) : NULL;
     }
     return at != NULL ? n : 0;

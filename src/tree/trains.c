@@ -12,14 +12,14 @@
 
 /* Space for the name of a copy's vehicle, made of two names. A longer name is rejected like one cut
  * to this length. */
-enum { NAME_ROOM = 2 * CZ_MOST_NAME + 2, MOST_REPEATS = 200, DEEPEST_COPY = 8 };
+enum { NAME_SIZE = 2 * CZ_MAX_NAME + 2, MAX_REPEATS = 200, DEEPEST_COPY = 8 };
 
 /* One vehicle of a train. */
 typedef struct {
     const CzNode *node; /* with its parts inserted */
     const CzTrail *trail;
     const CzNode *name_place;
-    char name[NAME_ROOM];
+    char name[NAME_SIZE];
     bool is_turned;
 } Vehicle;
 
@@ -47,7 +47,7 @@ typedef struct {
 int cz_vehicle_repeat(const CzNode *vehicle) {
     const char *text = cz_node_find_text(vehicle, "repeat");
     const long n = text != NULL ? strtol(text, NULL, 10) : 1;
-    return n >= 1 && n <= MOST_REPEATS ? (int)n : 1;
+    return n >= 1 && n <= MAX_REPEATS ? (int)n : 1;
 }
 
 /* A name with its number increased by k; the number is the digits at its end. */
@@ -75,7 +75,7 @@ void cz_vehicle_name(char *text, size_t size, const CzNode *vehicle, const char 
 
 static const CzNode *name_vehicle(CzArena *arena, const CzNode *vehicle, const char *train,
                                   int position) {
-    char text[NAME_ROOM];
+    char text[NAME_SIZE];
     if (vehicle->kind != CZ_NODE_MAPPING || cz_node_find(vehicle, "name") != NULL)
         return vehicle;
     CzNode *named = cz_node_copy(arena, vehicle, 1);
@@ -133,16 +133,16 @@ static int read_repeat(CzReader *reader, const CzNode *node, const CzTrail *trai
     const CzEntry *entry = cz_node_find(node, "repeat");
     if (entry != NULL && !cz_value_count(cz_reader_value(reader, "repeat", entry->value,
                                                          cz_entry_trail(entry, trail)),
-                                         1, MOST_REPEATS, &n_repeat))
+                                         1, MAX_REPEATS, &n_repeat))
         n_repeat = 1;
     return n_repeat;
 }
 
 /* Memory for the vehicles of a train; false when there are too many. */
 static bool make_room(Trains *trains, Train *train, int n_vehicle, const CzNode *place) {
-    if (trains->n_vehicle + n_vehicle > CZ_MOST_VEHICLES) {
+    if (trains->n_vehicle + n_vehicle > CZ_MAX_VEHICLES) {
         cz_mistake(&trains->reader->mistakes, place, NULL, "the trains have more than %d vehicles",
-                   (int)CZ_MOST_VEHICLES);
+                   (int)CZ_MAX_VEHICLES);
         train->is_refused = true;
         return false;
     }
@@ -200,7 +200,7 @@ static void rename_vehicles(Train *train, const Train *original) {
         all_lettered &= strncmp(original->vehicle[i].name, original->name, n) == 0;
     for (int i = 0; i < train->n_vehicle; i++) {
         Vehicle *vehicle = &train->vehicle[i];
-        char own[NAME_ROOM];
+        char own[NAME_SIZE];
         memcpy(own, vehicle->name, sizeof own);
         const char *rest = all_lettered ? original->vehicle[i].name + n : own;
         snprintf(vehicle->name, sizeof vehicle->name, "%.48s%s%.48s", train->name,

@@ -11,7 +11,7 @@
 
 #include "tree/parts.h"
 
-enum { CZ_MOST_VEHICLES = 1000 };
+enum { CZ_MAX_VEHICLES = 1000 };
 
 /* The root with the vehicles of all trains written out; NULL without memory. */
 const CzNode *cz_trains_write_out(CzReader *reader, const CzTree *tree);

@@ -9,14 +9,14 @@
 
 #include "crushzone/crushzone.h"
 
-enum { BEST_KNOWN_ROOM = 32 };
+enum { BEST_KNOWN_SIZE = 32 };
 
 typedef struct BestKnown {
     char problem[64];          /* file without .yaml */
     double objective;          /* as minimised: of a margin its negative */
     bool is_feasible;          /* a design that passes is known */
     int n;                     /* variables */
-    double x[BEST_KNOWN_ROOM]; /* in the variables' units (n) */
+    double x[BEST_KNOWN_SIZE]; /* in the variables' units (n) */
 } BestKnown;
 
 /* Name of a problem: its file without folder and ending; room for 64 bytes. */
@@ -40,7 +40,7 @@ static inline bool best_known_read(const char *line, const char *name, BestKnown
     snprintf(best->problem, sizeof best->problem, "%.63s", name);
     best->is_feasible = strcmp(feasible, "yes") == 0;
     char *end = NULL;
-    for (const char *next = line + n_name + at; best->n < BEST_KNOWN_ROOM; next = end) {
+    for (const char *next = line + n_name + at; best->n < BEST_KNOWN_SIZE; next = end) {
         const double value = strtod(next, &end);
         if (end == next)
             break;

@@ -9,7 +9,7 @@
 #include "evaluate/evaluator.h"
 #include "simulate/batch.h"
 
-enum { MOST_DESIGNS = 8, MOST_SET = 4, GRADIENT = 12 };
+enum { MAX_DESIGNS = 8, MAX_SET = 4, GRADIENT = 12 };
 
 /* ---- problems and runs ---- */
 
@@ -58,8 +58,8 @@ BenchRun *bench_train(int n, const char *track) {
 
 /* Runs all designs once and gives the first run, to be freed. */
 static CzRun *simulate(const BenchRun *run) {
-    CzRun *made[MOST_DESIGNS] = {NULL};
-    CzPlannedRun planned[MOST_DESIGNS];
+    CzRun *made[MAX_DESIGNS] = {NULL};
+    CzPlannedRun planned[MAX_DESIGNS];
     CzError error = {0};
     for (int i = 0; i < run->n_design; i++)
         planned[i] = (CzPlannedRun){run->model, NULL};
@@ -180,7 +180,7 @@ static void add_mixed(Bench *bench) {
 void bench_add_batches(Bench *bench, bool is_short) {
     char key[48], what[96];
     for (int n = 1; n <= (is_short ? 1 : 8); n *= 8)
-        for (int n_design = 1; n_design <= MOST_DESIGNS; n_design *= 2) {
+        for (int n_design = 1; n_design <= MAX_DESIGNS; n_design *= 2) {
             BenchRun *run = bench_train(n, "receptance");
             run->options.brief = true;
             run->n_design = n_design;

@@ -51,7 +51,7 @@ double chain_next_set(const Coupler *coupler, double x, double p, double force) 
 void chain_run(int n, double step, ChainResult *result) {
     const long n_step = lround(CHAIN_DURATION / step);
     const double per_mass = step / CHAIN_MASS;
-    double x[CHAIN_MOST_CARS] = {0.0}, v[CHAIN_MOST_CARS] = {0.0}, p[CHAIN_MOST_CARS] = {0.0};
+    double x[CHAIN_MAX_CARS] = {0.0}, v[CHAIN_MAX_CARS] = {0.0}, p[CHAIN_MAX_CARS] = {0.0};
     memset(result, 0, sizeof *result);
     for (int i = 0; i < n / 2; i++)
         v[i] = CHAIN_SPEED;

@@ -19,7 +19,7 @@ extern "C" {
 #define CHAIN_DURATION 0.5 /* [s] */
 #define CHAIN_STEP 1e-4    /* [s] */
 
-enum { CHAIN_MOST_CARS = 32, CHAIN_POINTS = 7 };
+enum { CHAIN_MAX_CARS = 32, CHAIN_POINTS = 7 };
 
 typedef struct Coupler {
     double stroke[CHAIN_POINTS], force[CHAIN_POINTS]; /* envelope [m], [N] */
@@ -38,9 +38,9 @@ double chain_next_set(const Coupler *coupler, double x, double p, double force);
 
 /* What the programs are compared by. */
 typedef struct ChainResult {
-    double force[CHAIN_MOST_CARS];      /* largest of each coupler [N] */
-    double shortening[CHAIN_MOST_CARS]; /* largest of each coupler [m] */
-    double speed[CHAIN_MOST_CARS];      /* of each car at the end [m/s] */
+    double force[CHAIN_MAX_CARS];      /* largest of each coupler [N] */
+    double shortening[CHAIN_MAX_CARS]; /* largest of each coupler [m] */
+    double speed[CHAIN_MAX_CARS];      /* of each car at the end [m/s] */
 } ChainResult;
 
 /* In plain C: semi-implicit Euler. */

@@ -16,11 +16,11 @@ void bench_stop(const char *message) {
 
 BenchCase *bench_add(Bench *bench, const char *key, const char *what, double (*run)(void *data),
                      void *data) {
-    if (bench->n_case == BENCH_MOST_CASES)
+    if (bench->n_case == BENCH_MAX_CASES)
         bench_stop("too many cases");
     BenchCase *added = &bench->cases[bench->n_case++];
     *added =
-        (BenchCase){.run = run, .data = data, .per = 1.0, .most = BENCH_MOST_ROUNDS, .error = NAN};
+        (BenchCase){.run = run, .data = data, .per = 1.0, .most = BENCH_MAX_ROUNDS, .error = NAN};
     snprintf(added->key, sizeof added->key, "%s", key);
     snprintf(added->what, sizeof added->what, "%s", what);
     return added;
@@ -81,7 +81,7 @@ static int by_size(const void *a, const void *b) {
 }
 
 void bench_measure(Bench *bench, int n_round, const char *only) {
-    bench->n_round = n_round < BENCH_MOST_ROUNDS ? n_round : BENCH_MOST_ROUNDS;
+    bench->n_round = n_round < BENCH_MAX_ROUNDS ? n_round : BENCH_MAX_ROUNDS;
     for (int round = 0; round < bench->n_round; round++)
         for (int i = 0; i < bench->n_case; i++) {
             BenchCase *timed = &bench->cases[i];

@@ -7,7 +7,7 @@
 
 #include "base/clock.h"
 
-enum { BENCH_MOST_CASES = 96, BENCH_MOST_ROUNDS = 100 };
+enum { BENCH_MAX_CASES = 96, BENCH_MAX_ROUNDS = 100 };
 
 /* One thing that is timed. `run` does it once and returns the time that it took [s]. */
 typedef struct BenchCase {
@@ -20,8 +20,8 @@ typedef struct BenchCase {
     int most;     /* rounds that it takes part in; all by default */
     double error; /* difference from a reference; NaN where there is none */
     int n;
-    double time[BENCH_MOST_ROUNDS]; /* [s] */
-    double least, median;           /* [s] */
+    double time[BENCH_MAX_ROUNDS]; /* [s] */
+    double least, median;          /* [s] */
 } BenchCase;
 
 /* A number made of times (figures.def). */
@@ -38,7 +38,7 @@ enum {
 
 typedef struct Bench {
     int n_case, n_round;
-    BenchCase cases[BENCH_MOST_CASES];
+    BenchCase cases[BENCH_MAX_CASES];
     BenchFigure figure[BENCH_N_FIGURE];
 } Bench;
 

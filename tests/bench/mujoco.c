@@ -12,7 +12,7 @@ typedef struct Mujoco {
     int n;
     mjModel *model;
     mjData *data;
-    double set[CHAIN_MOST_CARS]; /* permanent set of each coupler [m] */
+    double set[CHAIN_MAX_CARS]; /* permanent set of each coupler [m] */
     ChainResult *result;
 } Mujoco;
 

@@ -334,7 +334,7 @@ static void put_rates(void) {
 
 /* ---- searches ---- */
 
-enum { N_COUNT = 4, MOST_GROUP = 200 };
+enum { N_COUNT = 4, MAX_GROUP = 200 };
 
 /* A problem searched by one method; NaN for an empty field. */
 typedef struct Searched {
@@ -358,7 +358,7 @@ static int read_searches(const char *file, Searched *searched) {
         fprintf(stderr, "bench_page: cannot read %s\n", file);
         exit(1);
     }
-    while (n < MOST_GROUP && fgets(line, sizeof line, csv) != NULL) {
+    while (n < MAX_GROUP && fgets(line, sizeof line, csv) != NULL) {
         Searched *it = &searched[n++];
         char *rest = line;
         sscanf(line, "%63[^,],%31[^,]", it->problem, it->method);
@@ -449,7 +449,7 @@ static void put_problems(int n, const Searched *searched) {
 }
 
 static void put_searches(const char *file) {
-    Searched searched[MOST_GROUP];
+    Searched searched[MAX_GROUP];
     const int n = read_searches(file, searched);
     puts("\n## Searches\n\n"
          "The usual search (`algorithm: auto`) and single algorithms of NLopt on the nine problems "

@@ -30,9 +30,9 @@ static const long counts[] = {50, 100, 200, 400};
 enum {
     N_METHOD = sizeof methods / sizeof *methods,
     N_COUNT = sizeof counts / sizeof *counts,
-    MOST_COUNT = 400,
+    MAX_COUNT = 400,
     N_SEED = 10,
-    MOST_SEED = 20,
+    MAX_SEED = 20,
     N_LONG_SEED = 3
 };
 
@@ -88,8 +88,8 @@ static void compare(CzEvaluator *evaluator, const BestKnown *best, const char *m
 typedef struct Group {
     char problem[64], method[32];
     int n;
-    double least[N_COUNT][MOST_SEED]; /* distances, infinite while no design passes */
-    double reached[MOST_SEED];        /* evaluations to within 1 %, infinite when never */
+    double least[N_COUNT][MAX_SEED]; /* distances, infinite while no design passes */
+    double reached[MAX_SEED];        /* evaluations to within 1 %, infinite when never */
 } Group;
 
 static int compare_numbers(const void *a, const void *b) {
@@ -163,7 +163,7 @@ static void make_table(const char *best_known) {
         snprintf(file, sizeof file, "%.*s%s.yaml", (int)(strrchr(best_known, '/') + 1 - best_known),
                  best_known, problem);
         const BestKnown best = best_known_of(file);
-        if (group.n < MOST_SEED)
+        if (group.n < MAX_SEED)
             add_line(&group, line + at, &best);
     }
     put_group(&group);
@@ -215,7 +215,7 @@ int main(int argc, char **argv) {
     const bool is_long = argc > 3 && strcmp(argv[1], "--long") == 0;
     const bool is_counted = argc > 4 && strcmp(argv[1], "--evaluations") == 0;
     const char *method = argv[is_counted ? 3 : 1];
-    const long evaluations = is_counted ? atol(argv[2]) : MOST_COUNT;
+    const long evaluations = is_counted ? atol(argv[2]) : MAX_COUNT;
     const long n_seed = !is_random(method) ? 1 : is_counted ? N_LONG_SEED : N_SEED;
     for (int i = is_counted ? 4 : is_long ? 3 : 2; i < argc; i++) {
         CzProblem *problem = NULL;

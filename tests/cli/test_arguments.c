@@ -3,15 +3,15 @@
 
 #include "cli/arguments.h"
 
-enum { MOST_WORDS = 20 };
+enum { MAX_WORDS = 20 };
 
 /* Reads a command line given as one text of words. */
 static CzStatus read_line(const char *line, CzArguments *arguments, CzError *error) {
     static char words[256];
-    char *argv[MOST_WORDS + 1] = {"crushzone"};
+    char *argv[MAX_WORDS + 1] = {"crushzone"};
     int argc = 1;
     snprintf(words, sizeof words, "%s", line);
-    for (char *word = strtok(words, " "); word != NULL && argc < MOST_WORDS;
+    for (char *word = strtok(words, " "); word != NULL && argc < MAX_WORDS;
          word = strtok(NULL, " "))
         argv[argc++] = word;
     return cz_arguments_read(argc, argv, arguments, error);

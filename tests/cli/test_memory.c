@@ -74,7 +74,7 @@ SEEN void *aligned_alloc(size_t alignment, size_t size) {
 
 /* ---- one try ---- */
 
-enum { MOST_WORDS = 16, NO_MEMORY = 5, LAST = 10 /* requests that fail always */ };
+enum { MAX_WORDS = 16, NO_MEMORY = 5, LAST = 10 /* requests that fail always */ };
 
 typedef struct Try {
     int code;        /* exit code; 256 + signal when it was killed */
@@ -204,10 +204,10 @@ static long step_from(long i, long n, long stride) {
 /* Every request fails in turn; when time is short, every `stride`-th and the last ones, which
  * belong to the final output on the terminal. */
 static void fail_every_request(const char *line, int stride) {
-    char words[256], *word[MOST_WORDS] = {"crushzone"};
+    char words[256], *word[MAX_WORDS] = {"crushzone"};
     int n_word = 1, n_bad = 0;
     snprintf(words, sizeof words, "%s", line);
-    for (char *w = strtok(words, " "); w != NULL && n_word < MOST_WORDS; w = strtok(NULL, " "))
+    for (char *w = strtok(words, " "); w != NULL && n_word < MAX_WORDS; w = strtok(NULL, " "))
         word[n_word++] = strcmp(w, "PROBLEM") == 0   ? problem
                          : strcmp(w, "SAMPLED") == 0 ? sampled
                          : strcmp(w, "MADE") == 0    ? made

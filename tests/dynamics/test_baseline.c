@@ -4,7 +4,7 @@
 #include "support/shipped.h"
 
 static Collision run_on(const char *isa, const char *name) {
-    char path[SHIPPED_ROOM + 16];
+    char path[SHIPPED_SIZE + 16];
     snprintf(path, sizeof path, "problems/%s", name);
     CzSimulateOptions options = cz_simulate_options_default();
     options.isa = isa;

@@ -138,7 +138,7 @@ static void members_of_chains_satisfy_their_laws_within_a_newton(void **state) {
     (void)state;
     const Shipped shipped = shipped_problems();
     for (int i = 0; i < shipped.n; i++) {
-        char path[SHIPPED_ROOM + 16];
+        char path[SHIPPED_SIZE + 16];
         snprintf(path, sizeof path, "problems/%s", shipped.name[i]);
         Collision collision = collide(path, WITH("simulation.duration_s=1"), 0);
         double weakest = INFINITY;

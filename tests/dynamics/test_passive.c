@@ -18,14 +18,14 @@ typedef struct Leads {
     double size, shift;
 } Leads;
 
-enum { MOST_LEADS = 6 };
+enum { MAX_LEADS = 6 };
 
 /* Puts the car at its place in step `i` of a loop, everything else at rest. */
-static void lead_car(const Motion *motion, const Leads leads[MOST_LEADS], int i) {
+static void lead_car(const Motion *motion, const Leads leads[MAX_LEADS], int i) {
     const double pi = 3.14159265358979323846, rate = 2.0 * pi / (N_STEP * motion->step);
     for (int dof = 0; dof < CZ_N_DOF; dof++)
         *position(motion, dof, 0) = *velocity(motion, dof, 0) = 0.0;
-    for (int k = 0; k < MOST_LEADS && leads[k].size > 0.0; k++) {
+    for (int k = 0; k < MAX_LEADS && leads[k].size > 0.0; k++) {
         const double phase = 2.0 * pi * i / N_STEP + leads[k].shift;
         *position(motion, leads[k].dof, 0) = leads[k].size * (sin(phase) - sin(leads[k].shift));
         *velocity(motion, leads[k].dof, 0) = leads[k].size * rate * cos(phase);
@@ -35,7 +35,7 @@ static void lead_car(const Motion *motion, const Leads leads[MOST_LEADS], int i)
 /* Moves a standing car around a loop: the work on two rows of the ledger rises and returns. The
  * error of the trapezoidal rule over 20,000 steps of a loop is some 1e-7 of this work, a little
  * more at the breakpoints of the springs. */
-static void check_loop(const Leads leads[MOST_LEADS], const int rows[2]) {
+static void check_loop(const Leads leads[MAX_LEADS], const int rows[2]) {
     Motion motion = motion_open("tests/physics/cases/standing.yaml", AS_WRITTEN);
     motion_start(&motion);
     double largest[2] = {0.0}, before[2] = {0.0};
@@ -60,11 +60,11 @@ static void check_loop(const Leads leads[MOST_LEADS], const int rows[2]) {
 static void springs_of_a_pitching_bogie_return_their_work(void **state) {
     (void)state;
     static const int rows[] = {CZ_LEDGER(primary), CZ_LEDGER(axle_guidance)};
-    static const Leads leads[MOST_LEADS] = {{CZ_DOF(bogie[1].pitch), 1.0, 0.3},
-                                            {CZ_DOF(bogie[1].x), 0.02, 1.9},
-                                            {CZ_DOF(bogie[1].z), 0.03, 4.0},
-                                            {CZ_DOF(wheelset[2].z), 0.04, 2.5},
-                                            {CZ_DOF(wheelset[3].x), 0.02, 5.0}};
+    static const Leads leads[MAX_LEADS] = {{CZ_DOF(bogie[1].pitch), 1.0, 0.3},
+                                           {CZ_DOF(bogie[1].x), 0.02, 1.9},
+                                           {CZ_DOF(bogie[1].z), 0.03, 4.0},
+                                           {CZ_DOF(wheelset[2].z), 0.04, 2.5},
+                                           {CZ_DOF(wheelset[3].x), 0.02, 5.0}};
     check_loop(leads, rows);
 }
 
@@ -72,11 +72,11 @@ static void springs_of_a_pitching_bogie_return_their_work(void **state) {
 static void springs_of_a_pitching_body_return_their_work(void **state) {
     (void)state;
     static const int rows[] = {CZ_LEDGER(secondary), CZ_LEDGER(link)};
-    static const Leads leads[MOST_LEADS] = {{CZ_DOF(body.pitch), 0.2, 0.3},
-                                            {CZ_DOF(body.x), 0.02, 5.0},
-                                            {CZ_DOF(bogie[1].pitch), 0.1, 2.5},
-                                            {CZ_DOF(bogie[1].x), 0.05, 1.9},
-                                            {CZ_DOF(bogie[1].z), 0.1, 4.0}};
+    static const Leads leads[MAX_LEADS] = {{CZ_DOF(body.pitch), 0.2, 0.3},
+                                           {CZ_DOF(body.x), 0.02, 5.0},
+                                           {CZ_DOF(bogie[1].pitch), 0.1, 2.5},
+                                           {CZ_DOF(bogie[1].x), 0.05, 1.9},
+                                           {CZ_DOF(bogie[1].z), 0.1, 4.0}};
     check_loop(leads, rows);
 }
 
@@ -87,7 +87,7 @@ static void guidance_of_an_end_mass_stores_the_energy_of_its_displacement(void *
     Motion motion = motion_open("tests/physics/cases/standing.yaml", AS_WRITTEN);
     motion_start(&motion);
     const double stiffness = *parameter(&motion, CZ_PARAMETER(end[1].guide_vertical.stiffness), 0);
-    static const Leads leads[MOST_LEADS] = {{CZ_DOF(end[1].z), 0.01, 1.0}};
+    static const Leads leads[MAX_LEADS] = {{CZ_DOF(end[1].z), 0.01, 1.0}};
     for (int i = 0; i <= N_STEP; i++) {
         motion_advance(&motion);
         lead_car(&motion, leads, i);

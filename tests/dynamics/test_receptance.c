@@ -158,7 +158,7 @@ static void fitted_modes_return_no_more_energy_than_they_received(void **state) 
     const double step = 5e-5;
     for (int motion = 0; motion < CZ_N_PAIR_MOTION; motion++) {
         const struct CzPairModes *own = &receptance.motion[motion];
-        double x[2 * CZ_MOST_PAIR_MODES] = {0.0}, taken = 0.0, z = 0.0, force = 0.0;
+        double x[2 * CZ_MAX_PAIR_MODES] = {0.0}, taken = 0.0, z = 0.0, force = 0.0;
         uint64_t random = 12345;
         for (int i = 0; i < 40000; i++) {
             random = random * 6364136223846793005u + 1442695040888963407u;

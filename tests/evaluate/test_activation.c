@@ -13,7 +13,7 @@ static const char cars[] =
     "  - {name: A, speed_km_h: 28, vehicles: [{use: light-cab-car}]}\n"
     "  - {name: B, reversed: true, speed_km_h: 0, vehicles: [{use: light-cab-car}]}\n";
 
-enum { MOST_DETAIL = 4, N_DESIGN = 16 };
+enum { MAX_DETAIL = 4, N_DESIGN = 16 };
 
 /* One limit over a range of one variable, from the most active device to the most idle one. */
 typedef struct Sweep {
@@ -43,15 +43,15 @@ static Seen see(const Sweep *sweep) {
     const CzEvaluatorOptions options = cz_evaluator_options_default();
     assert_int_equal(cz_evaluator_build(problem, &options, &evaluator, &error), CZ_OK);
     const int n = cz_evaluator_n_detail(evaluator);
-    assert_in_range(n, 1, MOST_DETAIL);
-    double x[N_DESIGN], detail[N_DESIGN * MOST_DETAIL];
+    assert_in_range(n, 1, MAX_DETAIL);
+    double x[N_DESIGN], detail[N_DESIGN * MAX_DETAIL];
     CzEvaluation evaluation[N_DESIGN] = {{0}};
     for (int i = 0; i < N_DESIGN; i++)
         x[i] = sweep->from + (sweep->to - sweep->from) * i / (N_DESIGN - 1);
     assert_int_equal(cz_evaluator_search(evaluator, N_DESIGN, x, evaluation, detail, &error),
                      CZ_OK);
     Seen seen;
-    CzDetailKind kind[MOST_DETAIL];
+    CzDetailKind kind[MAX_DETAIL];
     cz_evaluator_detail_kinds(evaluator, kind);
     seen.is_distance = kind[0] == CZ_DETAIL_ACTIVATION;
     for (int i = 0; i < N_DESIGN; i++) {

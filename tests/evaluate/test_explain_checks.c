@@ -154,7 +154,7 @@ static void a_yes_or_no_is_at_the_time_of_its_event(void **state) {
 
 /* A change as a setting of the file: margins of its checks. */
 static double margin_with(const CzTriedChange *change, const char *name, bool *passes) {
-    char setting[CZ_PATH_ROOM + 40];
+    char setting[CZ_PATH_SIZE + 40];
     const char *const set = setting;
     CzProblemOptions options = cz_problem_options_default();
     CzProblem *problem = NULL;

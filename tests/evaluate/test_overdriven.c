@@ -8,7 +8,7 @@
 #include "crushzone/evaluate.h"
 #include "problem/problem.h"
 
-enum { MOST_TEXT = 8000 };
+enum { MAX_TEXT = 8000 };
 
 typedef struct {
     const char
@@ -136,7 +136,7 @@ static void assert_check_fails(const CzEvaluation *evaluation, const char *name)
 static void assert_used_up(const CzRunSummary *run, const Class *class, const char *car) {
     bool has_event = false;
     for (int i = 0; i < run->n_event; i++) {
-        char where[CZ_WHERE_ROOM + 16];
+        char where[CZ_WHERE_SIZE + 16];
         snprintf(where, sizeof where, "%s %s", class->where, car);
         has_event |=
             run->event[i].what == CZ_EVENT_BOTTOMED_OUT && strcmp(run->event[i].where, where) == 0;
@@ -162,7 +162,7 @@ typedef struct {
 } Judged;
 
 static Judged judge(const Class *class, Setting setting, bool full) {
-    char text[MOST_TEXT];
+    char text[MAX_TEXT];
     write_problem(text, class, setting, full);
     Judged judged = {0};
     CzError error = {0};

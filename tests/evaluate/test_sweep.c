@@ -242,9 +242,9 @@ static void of_many_points_some_have_curves(void **state) {
     CzSweepOptions options = options_of(&axis, 1);
     options.curves = true;
     CzSweep *sweep = sweep_with(&options);
-    assert_int_equal(sweep->n_curve, CZ_MOST_SWEPT_CURVES);
+    assert_int_equal(sweep->n_curve, CZ_MAX_SWEPT_CURVES);
     assert_int_equal(sweep->curve[0].point, 0);
-    assert_int_equal(sweep->curve[CZ_MOST_SWEPT_CURVES - 1].point, 14);
+    assert_int_equal(sweep->curve[CZ_MAX_SWEPT_CURVES - 1].point, 14);
     for (int i = 1; i < sweep->n_curve; i++)
         assert_true(sweep->curve[i].point > sweep->curve[i - 1].point);
     cz_sweep_free(sweep);

@@ -9,15 +9,15 @@
 #include "model/breakpoints.h"
 #include "problem/strokes.h"
 
-enum { MOST_POINTS = 4000 };
+enum { MAX_POINTS = 4000 };
 
 typedef struct Curve {
     int n;
-    double x[MOST_POINTS], f[MOST_POINTS];
+    double x[MAX_POINTS], f[MAX_POINTS];
 } Curve;
 
 static inline void add_point(Curve *curve, double x, double f) {
-    assert_true(curve->n < MOST_POINTS);
+    assert_true(curve->n < MAX_POINTS);
     curve->x[curve->n] = x;
     curve->f[curve->n++] = f;
 }

@@ -6,7 +6,7 @@
 #include "base/text.h"
 
 static bool is_text(const char *text) {
-    char what[CZ_FAULT_ROOM];
+    char what[CZ_FAULT_SIZE];
     size_t at;
     return !cz_text_fault(text, strlen(text), false, &at, what);
 }

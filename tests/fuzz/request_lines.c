@@ -8,7 +8,7 @@
 
 #include <jansson.h>
 
-enum { MOST_SEEDS = 100, ROOM = 4096 };
+enum { MAX_SEEDS = 100, LINE_SIZE = 4096 };
 
 static uint64_t state;
 
@@ -66,20 +66,20 @@ static size_t change(char *line, size_t n, const char *other) {
     case 2: /* the end is missing */
         return at;
     case 3: /* a word more */
-        if (n + n_word >= ROOM)
+        if (n + n_word >= LINE_SIZE)
             return n;
         memmove(line + at + n_word, line + at, n - at);
         memcpy(line + at, word, n_word);
         return n + n_word;
     case 4: { /* the end of another line */
         const size_t from = below(n_other + 1), n_end = n_other - from;
-        if (at + n_end >= ROOM)
+        if (at + n_end >= LINE_SIZE)
             return n;
         memcpy(line + at, other + from, n_end);
         return at + n_end;
     }
     default: { /* a piece twice */
-        if (n + n_cut >= ROOM)
+        if (n + n_cut >= LINE_SIZE)
             return n;
         memmove(line + at + n_cut, line + at, n - at);
         return n + n_cut;
@@ -88,10 +88,10 @@ static size_t change(char *line, size_t n, const char *other) {
 }
 
 static int write_lines(long n_line, const char *file) {
-    static char seed[MOST_SEEDS][ROOM];
+    static char seed[MAX_SEEDS][LINE_SIZE];
     size_t n_seed = 0;
     FILE *stream = fopen(file, "r");
-    while (stream != NULL && n_seed < MOST_SEEDS && fgets(seed[n_seed], ROOM, stream) != NULL) {
+    while (stream != NULL && n_seed < MAX_SEEDS && fgets(seed[n_seed], LINE_SIZE, stream) != NULL) {
         seed[n_seed][strcspn(seed[n_seed], "\n")] = '\0';
         n_seed++;
     }
@@ -99,7 +99,7 @@ static int write_lines(long n_line, const char *file) {
         return 1;
     fclose(stream);
     for (long i = 0; i < n_line; i++) {
-        char line[ROOM];
+        char line[LINE_SIZE];
         const char *first = seed[below(n_seed)];
         size_t n = strlen(first);
         memcpy(line, first, n);

@@ -5,14 +5,14 @@
 #include "base/symmetric.h"
 #include "model/strut_chain.h"
 
-enum { MOST = 48 };
+enum { MAX_CARS = 48 };
 
 /* A chain of any number of cars of a metro. */
 typedef struct Train {
     int n_car;
-    CzChainCar car[MOST];
-    CzChainStrut strut[MOST];
-    double force[MOST];
+    CzChainCar car[MAX_CARS];
+    CzChainStrut strut[MAX_CARS];
+    double force[MAX_CARS];
 } Train;
 
 static const CzChainCar a_car = {.spring = 0.73e6, .half_spacing = 7.85};
@@ -189,9 +189,9 @@ static double energy_of(const Train *train, double *u, double force) {
 
 /* Whether the energy has a minimum at rest: its second differences are positive definite. */
 static bool is_stable(const Train *train, double force) {
-    enum { MOST_UNKNOWN = 64 };
-    double u[MOST_UNKNOWN] = {0};
-    static double hessian[MOST_UNKNOWN * MOST_UNKNOWN];
+    enum { MAX_UNKNOWN = 64 };
+    double u[MAX_UNKNOWN] = {0};
+    static double hessian[MAX_UNKNOWN * MAX_UNKNOWN];
     const int n = 2 * train->n_car + 4 * (train->n_car - 1);
     const double h = 1e-4;
     for (int i = 0; i < n; i++)

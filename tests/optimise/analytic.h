@@ -7,7 +7,7 @@
 
 #include "optimise/search.h"
 
-enum { MOST_VARIABLES = 6, MOST_CONSTRAINTS = 4 };
+enum { MAX_VARIABLES = 6, MAX_CONSTRAINTS = 4 };
 
 /* One design: fills the constraints (at most 0 when kept) and returns the objective. */
 typedef double (*AnalyticFormula)(const double *x, double *constraint);
@@ -15,10 +15,10 @@ typedef double (*AnalyticFormula)(const double *x, double *constraint);
 typedef struct Analytic {
     const char *name;
     int n_variable, n_constraint;
-    double min[MOST_VARIABLES], max[MOST_VARIABLES], start[MOST_VARIABLES], step[MOST_VARIABLES];
+    double min[MAX_VARIABLES], max[MAX_VARIABLES], start[MAX_VARIABLES], step[MAX_VARIABLES];
     AnalyticFormula formula;
     bool is_minimax;
-    double optimum[MOST_VARIABLES], best; /* known */
+    double optimum[MAX_VARIABLES], best; /* known */
 } Analytic;
 
 /* HS22: two constraints, both active at (1, 1). */

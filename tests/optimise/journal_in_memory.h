@@ -8,12 +8,12 @@
 
 #include <stdlib.h>
 
-enum { MOST = 400 }; /* evaluations */
+enum { MAX_EVALUATIONS = 400 }; /* evaluations */
 
 /* What a search kept. */
 typedef struct Kept {
     const CzEvaluator *evaluator;
-    CzAnswer answer[MOST];
+    CzAnswer answer[MAX_EVALUATIONS];
     long n;
     long fails_at; /* number of evaluations from which nothing can be kept; 0 for never */
     double best[8], best_violation;
@@ -32,7 +32,7 @@ static inline CzStatus journal_keep(const CzNews *news, void *data, CzError *err
             snprintf(error->message, sizeof error->message, "the disk is full");
             return CZ_STATUS_OUTPUT;
         }
-        assert_true(kept->n < MOST);
+        assert_true(kept->n < MAX_EVALUATIONS);
         kept->answer[kept->n++] = (CzAnswer){
             .x = journal_copy(news->answer[i].x, cz_evaluator_n_variable(kept->evaluator)),
             .objective = news->answer[i].objective,

@@ -16,7 +16,7 @@ static inline double slope(const Analytic *analytic, const double *x, int constr
     const double h = 1e-6;
     double value[2];
     for (int side = 0; side < 2; side++) {
-        double moved[MOST_VARIABLES], c[MOST_CONSTRAINTS] = {0};
+        double moved[MAX_VARIABLES], c[MAX_CONSTRAINTS] = {0};
         memcpy(moved, x, sizeof(double) * (size_t)analytic->n_variable);
         moved[variable] += side == 0 ? -h : h;
         const double f = analytic->formula(moved, c);
@@ -29,9 +29,9 @@ static inline double slope(const Analytic *analytic, const double *x, int constr
  * within `tolerance` of 0 are taken as active. */
 static inline double kkt_residual(const Analytic *analytic, const double *x, double tolerance) {
     const int n = analytic->n_variable;
-    double c[MOST_CONSTRAINTS] = {0}, row[MOST_CONSTRAINTS + 2 * MOST_VARIABLES][MOST_VARIABLES];
-    double residual[MOST_VARIABLES], scale = 0,
-                                     multiplier[MOST_CONSTRAINTS + 2 * MOST_VARIABLES] = {0};
+    double c[MAX_CONSTRAINTS] = {0}, row[MAX_CONSTRAINTS + 2 * MAX_VARIABLES][MAX_VARIABLES];
+    double residual[MAX_VARIABLES], scale = 0,
+                                    multiplier[MAX_CONSTRAINTS + 2 * MAX_VARIABLES] = {0};
     int n_row = 0;
     analytic->formula(x, c);
     for (int j = 0; j < analytic->n_constraint; j++)

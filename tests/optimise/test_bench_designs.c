@@ -5,16 +5,16 @@
 
 #include <dirent.h>
 
-enum { FEWEST = 8, MOST = 40 };
+enum { MIN_DESIGNS = 8, MAX_DESIGNS = 40 };
 
-static int list_files(char file[MOST][256]) {
+static int list_files(char file[MAX_DESIGNS][256]) {
     DIR *folder = opendir(CZ_SOURCE_FOLDER "/problems/bench-designs");
     int n = 0;
     assert_non_null(folder);
     for (const struct dirent *entry; (entry = readdir(folder)) != NULL;) {
         if (strstr(entry->d_name, ".yaml") == NULL)
             continue;
-        assert_true(n < MOST);
+        assert_true(n < MAX_DESIGNS);
         snprintf(file[n++], 256, CZ_SOURCE_FOLDER "/problems/bench-designs/%.100s", entry->d_name);
     }
     closedir(folder);
@@ -46,9 +46,9 @@ static void check_best(const char *file) {
 
 static void best_known_designs_have_the_recorded_objective(void **state) {
     (void)state;
-    char file[MOST][256];
+    char file[MAX_DESIGNS][256];
     const int n = list_files(file);
-    assert_true(n >= FEWEST);
+    assert_true(n >= MIN_DESIGNS);
     for (int i = 0; i < n; i++)
         check_best(file[i]);
 }

@@ -188,7 +188,7 @@ static void a_weak_point_is_a_case_of_the_problem(void **state) {
     const CzChallengeOptions options = runs(20);
     CzChallenge *made = challenge(problem, NULL, &options);
     CzCaseChange change[8];
-    char name[CZ_NAME_ROOM];
+    char name[CZ_NAME_SIZE];
     CzEvaluator *evaluator = NULL;
     CzEvaluation evaluation = {0};
     CzError error = {0};

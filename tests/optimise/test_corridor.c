@@ -191,7 +191,7 @@ static void a_device_in_pieces_has_the_same_results(void **state) {
     (void)state;
     CzCorridor *corridor = find(staged, "", of_part("zone", 1));
     assert_int_equal(corridor->n_piece, 8); /* 3 of 50 mm, 1 of 30 mm, 4 of 75 mm */
-    CzStage piece[CZ_MOST_PIECES] = {0};
+    CzStage piece[CZ_MAX_PIECES] = {0};
     for (int i = 0; i < corridor->n_piece; i++)
         piece[i] = (CzStage){.given = true,
                              .stroke = corridor->piece_stroke[i],

@@ -3,7 +3,7 @@
 #include "support/check.h"
 #include "optimise/linear_program.h"
 
-enum { MOST = 8, MOST_ROWS = 30 };
+enum { MAX_VARIABLES = 8, MAX_ROWS = 30 };
 
 static double cost(const CzLinearProgram *program, const double *d) {
     double sum = 0;
@@ -65,9 +65,10 @@ static void no_step_improves_the_solution_of_a_random_program(void **state) {
     (void)state;
     state_of_random = 1;
     for (int trial = 0; trial < 300; trial++) {
-        double g[MOST], lo[MOST], hi[MOST], d[MOST], other[MOST];
-        double c[MOST_ROWS], a[MOST_ROWS * MOST], w[MOST_ROWS];
-        const int n = 1 + trial % MOST, m = (int)random_number(0, MOST_ROWS);
+        double g[MAX_VARIABLES], lo[MAX_VARIABLES], hi[MAX_VARIABLES], d[MAX_VARIABLES],
+            other[MAX_VARIABLES];
+        double c[MAX_ROWS], a[MAX_ROWS * MAX_VARIABLES], w[MAX_ROWS];
+        const int n = 1 + trial % MAX_VARIABLES, m = (int)random_number(0, MAX_ROWS);
         for (int j = 0; j < n; j++) {
             g[j] = random_number(-1, 1);
             lo[j] = random_number(-1, 0);

@@ -36,7 +36,7 @@ static const char *measured(void) {
     const CzRun *run = evaluation.run[0];
     const int n = cz_run_n_column(run);
     for (int i = 0; i < n; i++) {
-        char name[CZ_CHANNEL_ROOM];
+        char name[CZ_CHANNEL_SIZE];
         const CzColumn column = cz_run_column(run, i);
         const CzChannelInfo *info = cz_channel_info(column.channel);
         const char *place = cz_run_place_name(cz_run_summary(run), info->at, column.place);

@@ -26,7 +26,7 @@ static void check_optimum(const Analytic *analytic) {
     CzSearch search = run_auto(&function, 1500, 1);
     const CzRecord *best = &search.record[search.best];
     const double *x = cz_search_x(&search, search.best);
-    double c[MOST_CONSTRAINTS] = {0};
+    double c[MAX_CONSTRAINTS] = {0};
     assert_near(best->objective, analytic->formula(x, c), 0, 0);
     for (int j = 0; j < analytic->n_constraint && !analytic->is_minimax; j++)
         assert_true(c[j] <= 0);
@@ -306,7 +306,7 @@ static double best_on_steps(void) {
             for (int d = -12; d <= 16; d++)
                 for (int e = -12; e <= 16; e++) {
                     const double x[] = {a * 0.25, b * 0.25, d * 0.25, e * 0.25};
-                    double c[MOST_CONSTRAINTS];
+                    double c[MAX_CONSTRAINTS];
                     const double f = hs43(x, c);
                     if (c[0] <= 0 && c[1] <= 0 && c[2] <= 0 && f < best)
                         best = f;

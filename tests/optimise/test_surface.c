@@ -102,7 +102,7 @@ static void descent_keeps_its_budget_and_ends_at_the_optimum(void **state) {
         const CzFunction function = analytic_function(problems[i]);
         CzSearch search;
         CzSurface surface;
-        double u[MOST_VARIABLES];
+        double u[MAX_VARIABLES];
         create(&surface, &search, &function, 4);
         cz_search_scale(&search, function.start, u);
         cz_surface_descend(&surface, "test", u, 150, true);

@@ -17,16 +17,16 @@ typedef struct Row {
     bool is_upper_bound; /* the expected value is the most that is allowed */
 } Row;
 
-enum { MOST_ROWS = 400 };
+enum { MAX_ROWS = 400 };
 
 typedef struct Rows {
     int n;
-    Row row[MOST_ROWS];
+    Row row[MAX_ROWS];
 } Rows;
 
 static inline Row *add_row(Rows *rows, const char *unit, double computed, double expected,
                            double relative, double absolute) {
-    assert_true(rows->n < MOST_ROWS);
+    assert_true(rows->n < MAX_ROWS);
     Row *row = &rows->row[rows->n++];
     *row = (Row){.unit = unit,
                  .expected = expected,

@@ -123,13 +123,13 @@ static EnergyChecks energy_checks_of(const char *file, const char *const *set, i
 
 /* Of a family of scenarios with offsets, which are the same trains at other heights, one is run.
  */
-enum { MOST_SCENARIOS = 20, OF_A_FAMILY = 1 };
+enum { MAX_SCENARIOS = 20, OF_A_FAMILY = 1 };
 
 static int n_looked_at(const char *file) {
     Collision first = collision_model(file, AS_WRITTEN, 0);
     const int n = cz_problem_n_scenario(first.problem);
     collision_free(&first);
-    return n > MOST_SCENARIOS ? OF_A_FAMILY : n;
+    return n > MAX_SCENARIOS ? OF_A_FAMILY : n;
 }
 
 /* Up to 2 s, long after the largest forces; cars roll under their brakes for up to 14 s. Every run
@@ -138,7 +138,7 @@ void rows_of_balances(Rows *rows) {
     const Shipped shipped = shipped_problems();
     for (int i = 0; i < shipped.n; i++) {
         const char *name = shipped.name[i];
-        char file[SHIPPED_ROOM + 16];
+        char file[SHIPPED_SIZE + 16];
         snprintf(file, sizeof file, "problems/%s", name);
         const EnergyChecks checks = energy_checks_of(
             file, WITH("simulation.track=modal", "simulation.duration_s=2"), n_looked_at(file));
@@ -168,7 +168,7 @@ void rows_of_balances_on_rigid_rails(Rows *rows) {
     const Shipped shipped = shipped_problems();
     for (int i = 0; i < shipped.n; i++) {
         const char *name = shipped.name[i];
-        char file[SHIPPED_ROOM + 16];
+        char file[SHIPPED_SIZE + 16];
         snprintf(file, sizeof file, "problems/%s", name);
         if (!asks_for_rigid_rails(file))
             continue;

@@ -63,7 +63,7 @@ static void soft_hinges_let_couplers_fold_and_stiffer_ones_do_not(void **state) 
 /* The pair that bottoms out, slower so that it does not climb: closing at 63 km/h. */
 static const char bottoming[] = "problems/override-bottoming-lifts.yaml";
 
-#define LEAST_LIFT 1e-3 /* above which a wheelset counts as lifted [m] */
+#define MIN_LIFT 1e-3 /* above which a wheelset counts as lifted [m] */
 
 /* Largest wheel lift of the rear bogie of the car behind [m]. */
 static double rear_lift(const char *setting, const char *other) {
@@ -79,7 +79,7 @@ static void stiffer_springs_lower_the_lift_and_a_higher_centre_of_gravity_raises
     (void)state;
     const char *speed = "trains.A.speed_km_h=38";
     const double lift = rear_lift(speed, NULL);
-    assert_true(lift > LEAST_LIFT);
+    assert_true(lift > MIN_LIFT);
     const double stiffer = rear_lift(speed, "parts.bogie.secondary.stiffness_MN_m=1.032");
     const double softer = rear_lift(speed, "parts.bogie.secondary.stiffness_MN_m=0.688");
     if (getenv("CZ_TOL_SCALE") != NULL)
@@ -98,8 +98,8 @@ static void stiffer_springs_lower_the_lift_and_a_higher_centre_of_gravity_raises
     const double lower = rear_lift(speed, "parts.middle-car.cg_height_m=1.28");
     if (getenv("CZ_TOL_SCALE") != NULL)
         print_message("lift %g, centre +20 %%: %g, -20 %%: %g\n", as_written, higher, lower);
-    assert_true(as_written > LEAST_LIFT && higher > 2.0 * as_written && higher < 0.028);
-    assert_true(lower < LEAST_LIFT);
+    assert_true(as_written > MIN_LIFT && higher > 2.0 * as_written && higher < 0.028);
+    assert_true(lower < MIN_LIFT);
 }
 
 /* Up to 30 km/h the gaps of the stops absorb the pitch up to little more than a countable lift.
@@ -111,7 +111,7 @@ static void lift_rises_steeply_above_a_critical_closing_speed(void **state) {
     const double at_30 = rear_lift("trains.A.speed_km_h=30", NULL);
     const double at_35 = rear_lift("trains.A.speed_km_h=35", NULL);
     const double at_40 = rear_lift("trains.A.speed_km_h=40", NULL);
-    assert_true(at_25 < LEAST_LIFT && at_30 < 2.0 * LEAST_LIFT);
+    assert_true(at_25 < MIN_LIFT && at_30 < 2.0 * MIN_LIFT);
     assert_true(at_35 > 2.0 * at_30 && at_40 > 2.0 * at_35);
     assert_true(at_40 - at_35 > at_35 - at_30);
 }
@@ -141,8 +141,8 @@ static void an_offset_of_40_mm_lifts_the_far_bogie_of_the_higher_car(void **stat
         assert_int_equal(run.summary->vehicle[1].lifted_bogie, 1);
         collision_free(&run);
     }
-    assert_true(a[0] > a[1] + LEAST_LIFT && a[1] > a[2] + LEAST_LIFT);
-    assert_true(b[2] > b[1] + LEAST_LIFT && b[1] > b[0] + LEAST_LIFT);
+    assert_true(a[0] > a[1] + MIN_LIFT && a[1] > a[2] + MIN_LIFT);
+    assert_true(b[2] > b[1] + MIN_LIFT && b[1] > b[0] + MIN_LIFT);
     /* Mirror images, except for the train that moves faster over the rails. The error of the step
      * is one part in a thousand of a pitch (docs/verification.md, C1), and the same share of the
      * rise of the seat, which is the lift plus the gaps of the stops. */
@@ -152,14 +152,14 @@ static void an_offset_of_40_mm_lifts_the_far_bogie_of_the_higher_car(void **stat
 /* ---- margins that an optimiser can follow -----------------------------------------------------
  */
 
-enum { N_PLACE = 13, MOST_METRICS = 3 };
+enum { N_PLACE = 13, MAX_METRICS = 3 };
 
 /* Metrics over a path, evenly spaced. */
 typedef struct Scan {
     const char *file, *setting;
     const char *until; /* up to which the values are taken; NULL is the end of the run */
     CzSweepAxis axis;
-    const char *metric[MOST_METRICS];
+    const char *metric[MAX_METRICS];
 } Scan;
 
 /* value[k] is that of metric k. */
@@ -193,13 +193,13 @@ static double bend_of(int n, const double *value, int every) {
 /* Difference quotients of neighbours have one sign, so a search has one direction. Their change is
  * that of a smooth curve: half the distance makes it a quarter, at a breakpoint a half; over a
  * jump, and in a chaotic response, it does not fall. */
-#define MOST_OF_A_JUMP 1.5 /* between the factors of a jump, 1, and of a breakpoint, 2 */
+#define MAX_OF_A_JUMP 1.5 /* between the factors of a jump, 1, and of a breakpoint, 2 */
 static void assert_smooth(const char *name, const char *path, int n, const double *value) {
     const double bend = bend_of(n, value, 1), wide = bend_of(n, value, 2);
     if (getenv("CZ_TOL_SCALE") != NULL)
         print_message("%s over %s: %g to %g, bend %g, at twice the distance %g times that\n", name,
                       path, value[0], value[n - 1], bend, wide / bend);
-    assert_true(bend <= wide / MOST_OF_A_JUMP);
+    assert_true(bend <= wide / MAX_OF_A_JUMP);
     for (int i = 1; i < n; i++)
         assert_true((value[i] - value[i - 1]) * (value[n - 1] - value[0]) > 0.0);
 }
@@ -237,9 +237,9 @@ static void margins_follow_a_design_variable_without_jumps(void **state) {
          {"interfaces.ramp_share"}},
     };
     for (size_t i = 0; i < sizeof scans / sizeof scans[0]; i++) {
-        double value[MOST_METRICS][N_PLACE];
+        double value[MAX_METRICS][N_PLACE];
         int n_metric = 0;
-        while (n_metric < MOST_METRICS && scans[i].metric[n_metric] != NULL)
+        while (n_metric < MAX_METRICS && scans[i].metric[n_metric] != NULL)
             n_metric++;
         run_scan(&scans[i], n_metric, value);
         for (int k = 0; k < n_metric; k++)

@@ -65,9 +65,9 @@ static void a_coupler_folds_above_its_critical_force_and_not_below(void **state)
 
 /* ---- a train is a chain of struts ---- */
 
-#define IMPERFECTION 1e-6  /* pitch of every car at the start [rad] */
-#define RUNAWAY 1000.0     /* times that: far beyond any oscillation below F_crit [-] */
-#define LEAST_CLOSING 1e-3 /* of every interface, so that all tubes keep collapsing [m/s] */
+#define IMPERFECTION 1e-6 /* pitch of every car at the start [rad] */
+#define RUNAWAY 1000.0    /* times that: far beyond any oscillation below F_crit [-] */
+#define MIN_CLOSING 1e-3  /* of every interface, so that all tubes keep collapsing [m/s] */
 
 /* The largest pitch of any car within `duration`, over the imperfection, while the tubes of all
  * interfaces push with one force. */
@@ -84,7 +84,7 @@ static double growth(const char *const *set, double duration) {
     for (int i = 1; i * motion.step <= duration; i++) {
         motion_advance(&motion);
         for (int car = 0; car < n_car; car++) {
-            const double speed = -car * LEAST_CLOSING;
+            const double speed = -car * MIN_CLOSING;
             *position(&motion, CZ_DOF(body.x), car) = speed * i * motion.step;
             *velocity(&motion, CZ_DOF(body.x), car) = speed;
             largest = fmax(largest, fabs(*position(&motion, CZ_DOF(body.pitch), car)));

@@ -13,15 +13,15 @@
 
 #include "crushzone/problem.h"
 
-enum { MOST_FILES = 500, MOST_LINES = 100, LONGEST_LINE = 1200 };
+enum { MAX_FILES = 500, MAX_LINES = 100, LONGEST_LINE = 1200 };
 
 typedef struct {
     int n_line;
-    char line[MOST_LINES][LONGEST_LINE];
+    char line[MAX_LINES][LONGEST_LINE];
 } Story;
 
 static void tell(Story *story, const char *line) {
-    assert_in_range(story->n_line, 0, MOST_LINES - 1);
+    assert_in_range(story->n_line, 0, MAX_LINES - 1);
     snprintf(story->line[story->n_line++], LONGEST_LINE, "%s", line);
 }
 
@@ -87,7 +87,7 @@ static bool is_problem_file(const char *name) {
 }
 
 int main(void) {
-    static struct CMUnitTest tests[MOST_FILES];
+    static struct CMUnitTest tests[MAX_FILES];
     size_t n_test = 0;
     if (chdir(CZ_SOURCE_FOLDER "/tests/problem/bad") != 0)
         return 1;
@@ -95,7 +95,7 @@ int main(void) {
     if (folder == NULL)
         return 1;
     for (struct dirent *file = readdir(folder); file != NULL; file = readdir(folder)) {
-        if (!is_problem_file(file->d_name) || n_test == MOST_FILES)
+        if (!is_problem_file(file->d_name) || n_test == MAX_FILES)
             continue;
         char *name = strdup(file->d_name);
         tests[n_test++] =

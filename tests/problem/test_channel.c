@@ -22,7 +22,7 @@ static int find_all(int n_vehicle, const char *const *vehicle) {
         const int end = cz_first_place(info->at, n_index(info->at, n_vehicle));
         for (int place = 0; place < end; place++, n++) {
             const int i = cz_place_index(info->at, place);
-            char interface[CZ_INTERFACE_ROOM] = "", name[CZ_CHANNEL_ROOM];
+            char interface[CZ_INTERFACE_SIZE] = "", name[CZ_CHANNEL_SIZE];
             if (info->at == CZ_AT_INTERFACE)
                 snprintf(interface, sizeof interface, "%s-%s", vehicle[i], vehicle[i + 1]);
             cz_channel_name(info, place, info->at == CZ_AT_INTERFACE ? interface : vehicle[i],
@@ -43,13 +43,13 @@ static void every_place_of_every_channel_is_found_by_its_name(void **state) {
     (void)state;
     /* 8 of the run, 5 of a vehicle, 4 wheelsets, 3 of each of 2 ends, 8 of an interface */
     assert_int_equal(find_all(3, short_names), 8 + 3 * (5 + 4 + 3 * 2) + 2 * 8);
-    assert_int_equal(strlen(long_names[0]), CZ_MOST_NAME);
+    assert_int_equal(strlen(long_names[0]), CZ_MAX_NAME);
     find_all(3, long_names);
 }
 
 static void names_contain_the_place(void **state) {
     (void)state;
-    char name[CZ_CHANNEL_ROOM];
+    char name[CZ_CHANNEL_SIZE];
     const CzChannelInfo *lift = cz_channel_info(CZ_CHANNEL_WHEEL_LIFT);
     assert_string_equal(cz_channel_name(lift, cz_wheelset_place(2, 3), "B1", name), "z_B1_w4_mm");
     const CzChannelInfo *stroke = cz_channel_info(CZ_CHANNEL_END_STROKE);
@@ -73,7 +73,7 @@ static void units_are_those_of_the_names(void **state) {
 
 static void a_mistyped_name_gets_the_nearest_one(void **state) {
     (void)state;
-    char nearest[CZ_CHANNEL_ROOM];
+    char nearest[CZ_CHANNEL_SIZE];
     CzColumn column = {CZ_CHANNEL_TIME, 7};
     assert_false(cz_column_find("F_A1-A3_kN", 3, short_names, &column, nearest));
     assert_string_equal(nearest, "F_A1-A2_kN");

@@ -24,11 +24,11 @@ static const struct {
 #undef CZ_CHANGE
 #undef CZ_EXCEPTION
 };
-enum { N_VALUE = sizeof values / sizeof values[0], MOST_VALUES = 8 };
+enum { N_VALUE = sizeof values / sizeof values[0], MAX_VALUES = 8 };
 
 typedef struct {
     int n;
-    char text[MOST_VALUES][400]; /* "key: value" */
+    char text[MAX_VALUES][400]; /* "key: value" */
 } Changes;
 
 static void add_number(Changes *changes, const CzKey *key, double value) {
@@ -67,17 +67,17 @@ static Changes changes_of(CzRecordId id, const CzKey *key, const char *record) {
 
 /* ---- going through the records of a vehicle ---- */
 
-enum { MOST_KEYS = 64, MOST_DEPTH = 6, N_MODEL = CZ_MODEL_FIXED + 1 };
+enum { MAX_KEYS = 64, MAX_DEPTH = 6, N_MODEL = CZ_MODEL_FIXED + 1 };
 typedef enum { UNSEEN, IDLE, ACTS } Found;
 
 typedef struct {
     const Setting *setting;
     const CzProblem *problem;
-    int n_wrong;               /* warnings that are missing or wrong */
-    bool (*lacked)[MOST_KEYS]; /* keys without the key they act with, of every record */
-    bool is_quick;             /* looks for effects in the first scenario alone */
+    int n_wrong;              /* warnings that are missing or wrong */
+    bool (*lacked)[MAX_KEYS]; /* keys without the key they act with, of every record */
+    bool is_quick;            /* looks for effects in the first scenario alone */
     Answer as_written;
-    Found (*found)[MOST_KEYS][N_MODEL]; /* of every record (CZ_N_RECORD) */
+    Found (*found)[MAX_KEYS][N_MODEL]; /* of every record (CZ_N_RECORD) */
 } Walk;
 
 /* Whether a line of warnings that begins like this names a key. */
@@ -95,7 +95,7 @@ static bool names_key(const char *warnings, const char *beginning, const CzKey *
 /* Where a record is in the vehicle. */
 typedef struct {
     int n;
-    const char *name[MOST_DEPTH];
+    const char *name[MAX_DEPTH];
 } Trail;
 
 /* Whether two texts are the same but for the rounding of their numbers. */
@@ -264,7 +264,7 @@ static void look_at_stages(Walk *walk, const CzStage *stage, int n_stage, const 
 
 static void look_at_record(Walk *walk, CzRecordId id, const char *memory, const Trail *trail) {
     const CzRecord *record = &cz_records[id];
-    assert_in_range(record->n_key, 1, MOST_KEYS);
+    assert_in_range(record->n_key, 1, MAX_KEYS);
     for (int index = 0; index < record->n_key; index++) {
         const CzKey *key = &record->key[index];
         Trail inside = *trail;
@@ -320,7 +320,7 @@ static bool is_of_vehicles(CzRecordId id, CzRecordId in) {
 }
 
 /* Number of conditions of acts.def that no setting shows. */
-static int count_conditions_without_case(bool lacked[CZ_N_RECORD][MOST_KEYS]) {
+static int count_conditions_without_case(bool lacked[CZ_N_RECORD][MAX_KEYS]) {
     int n = 0;
     for (CzRecordId id = 0; id < CZ_N_RECORD; id++)
         for (int index = 0; index < cz_records[id].n_key; index++) {
@@ -350,8 +350,8 @@ static int look_at_setting(Walk *walk) {
 
 static void every_key_of_a_vehicle_acts_or_is_warned_of(void **state) {
     (void)state;
-    static Found found[CZ_N_RECORD][MOST_KEYS][N_MODEL];
-    static bool lacked[CZ_N_RECORD][MOST_KEYS];
+    static Found found[CZ_N_RECORD][MAX_KEYS][N_MODEL];
+    static bool lacked[CZ_N_RECORD][MAX_KEYS];
     int n_wrong = 0;
     read_base();
     /* Most effects show in the first scenario of some setting, which takes a quarter of the time of

@@ -2,7 +2,7 @@
  * the same on every run; the debug build runs it under sanitizers. */
 #include "problem/read_problem.h"
 
-enum { N_MUTANT = 2500, MOST_CHANGES = 6 };
+enum { N_MUTANT = 2500, MAX_CHANGES = 6 };
 
 static uint32_t random_state;
 
@@ -65,7 +65,7 @@ static const char *const pieces[] = {"use: car",
                                      "---\n"};
 
 static size_t damage(char *text, size_t n_byte) {
-    const uint32_t n_change = 1 + draw(MOST_CHANGES);
+    const uint32_t n_change = 1 + draw(MAX_CHANGES);
     for (uint32_t i = 0; i < n_change && n_byte > 20; i++) {
         const size_t at = draw((uint32_t)n_byte);
         const size_t n_cut = draw(12);

@@ -11,12 +11,12 @@ typedef struct Case {
     CzModel *model;
 } Case;
 
-/* A scenario of a file with up to MOST_SET settings. */
-enum { MOST_SET = 3 };
+/* A scenario of a file with up to MAX_SET settings. */
+enum { MAX_SET = 3 };
 typedef struct Written {
     const char *file;
     int scenario;
-    const char *set[MOST_SET];
+    const char *set[MAX_SET];
 } Written;
 
 static Case case_written(const Written *written) {
@@ -24,7 +24,7 @@ static Case case_written(const Written *written) {
     snprintf(path, sizeof path, "%s/problems/%s", CZ_SOURCE_FOLDER, written->file);
     CzProblemOptions options = cz_problem_options_default();
     options.set = written->set;
-    while (options.n_set < MOST_SET && written->set[options.n_set] != NULL)
+    while (options.n_set < MAX_SET && written->set[options.n_set] != NULL)
         options.n_set++;
     CzError error = {0};
     Case opened = {0};
@@ -242,10 +242,10 @@ static void a_design_among_others_is_what_it_is_alone_on_elastic_rails(void **st
 
 /* ---- runs of several models ---- */
 
-enum { MOST_MIXED = 16 };
+enum { MAX_MIXED = 16 };
 
 static void simulate_mixed(const Case *mixed, int first, int n, int step, bool brief, CzRun **run) {
-    CzPlannedRun planned[MOST_MIXED];
+    CzPlannedRun planned[MAX_MIXED];
     CzSimulateOptions options = cz_simulate_options_default();
     CzError error = {0};
     options.record = false;
@@ -260,8 +260,8 @@ static void simulate_mixed(const Case *mixed, int first, int n, int step, bool b
 
 /* Runs each model alone, all in one batch, all in reverse order, and some of them. */
 static void check_mixed(const Written *written, int n, bool brief) {
-    Case mixed[MOST_MIXED];
-    CzRun *alone[MOST_MIXED], *among[MOST_MIXED];
+    Case mixed[MAX_MIXED];
+    CzRun *alone[MAX_MIXED], *among[MAX_MIXED];
     for (int i = 0; i < n; i++) {
         mixed[i] = case_written(&written[i]);
         simulate_mixed(mixed, i, 1, 1, brief, &alone[i]);

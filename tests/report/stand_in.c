@@ -153,7 +153,7 @@ CzTrack cz_problem_track(const CzProblem *problem) {
 int cz_deciding_run(const CzEvaluation *evaluation) {
     return evaluation->n_run > 0 ? 0 : -1;
 }
-void cz_page_folder_name(const char *scenario, char name[CZ_NAME_ROOM]) {
+void cz_page_folder_name(const char *scenario, char name[CZ_NAME_SIZE]) {
     snprintf(name, 128, "%s", scenario);
     for (char *c = name; *c != '\0'; c++)
         *c = *c == '/' ? '_' : *c;

@@ -67,7 +67,7 @@ static void values_are_read_to_the_same_bits(void **state) {
     for (int i = 1; i < cz_run_n_column(run); i++) {
         const CzColumn column = cz_run_column(run, i);
         const CzChannelInfo *info = cz_channel_info(column.channel);
-        char name[CZ_CHANNEL_ROOM];
+        char name[CZ_CHANNEL_SIZE];
         cz_channel_name(info, column.place, cz_run_place_name(summary, info->at, column.place),
                         name);
         const double unit = cz_curve_unit_of_title(name, NULL)->si;

@@ -294,7 +294,7 @@ static int read_channel(const char *page, const char *name, int *decimals, doubl
     return n;
 }
 
-static void name_column(const CzRun *run, CzColumn column, char name[CZ_CHANNEL_ROOM]) {
+static void name_column(const CzRun *run, CzColumn column, char name[CZ_CHANNEL_SIZE]) {
     const CzChannelInfo *info = cz_channel_info(column.channel);
     const CzRunSummary *summary = cz_run_summary(run);
     cz_channel_name(info, column.place, cz_run_place_name(summary, info->at, column.place), name);
@@ -310,7 +310,7 @@ static void compare_rows(const char *page, const CzRun *run, int n_row) {
     for (int k = 1; k < cz_run_n_column(run); k++) {
         const CzColumn column = cz_run_column(run, k);
         const double *real = cz_run_channel(run, column.channel, column.place);
-        char name[CZ_CHANNEL_ROOM], head[CZ_CHANNEL_ROOM + 8];
+        char name[CZ_CHANNEL_SIZE], head[CZ_CHANNEL_SIZE + 8];
         name_column(run, column, name);
         snprintf(head, sizeof head, "\"%s\":[", name);
         if (strstr(page, head) == NULL)

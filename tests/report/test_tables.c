@@ -257,7 +257,7 @@ static void numbers_are_short_and_not_rounded_to_a_limit(void **state) {
                 {-2e-9, "-2e-09", "-2e-07 %", "-2e-07 %"},
                 {-4.4e-14, "0", "0 %", "+0 %"},
                 {-0.0, "0", "0 %", "+0 %"}};
-    char text[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE];
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         assert_string_equal(cz_figure_plain(text, rows[i].value), rows[i].plain);
         assert_string_equal(cz_figure_percent(text, rows[i].value), rows[i].percent);
@@ -274,7 +274,7 @@ static void numbers_are_short_and_not_rounded_to_a_limit(void **state) {
 }
 
 static void assert_as_the_library_writes(int digits, double value) {
-    char text[CZ_FIGURE_ROOM], expected[CZ_FIGURE_ROOM];
+    char text[CZ_FIGURE_SIZE], expected[CZ_FIGURE_SIZE];
     snprintf(expected, sizeof expected, "%.*g", digits, value);
     assert_string_equal(cz_figure_digits(text, digits, value), expected);
 }
@@ -310,12 +310,12 @@ static void a_sweep_shows_the_largest_number_of_metrics(void **state) {
     CzSweepPoint point = {.value = {36}, .margin = 0.1, .scenario = "collision"};
     CzSweep sweep = {.n_axis = 1,
                      .axis = {{.path = "trains.A.speed_km_h"}},
-                     .n_metric = CZ_MOST_SWEPT_METRICS,
+                     .n_metric = CZ_MAX_SWEPT_METRICS,
                      .n_point = 1,
                      .n_shard = 1,
                      .end = 1,
                      .point = &point};
-    for (int k = 0; k < CZ_MOST_SWEPT_METRICS; k++) {
+    for (int k = 0; k < CZ_MAX_SWEPT_METRICS; k++) {
         snprintf(sweep.metric[k], sizeof sweep.metric[k], "metric %d", k + 1);
         sweep.metric_unit[k] = "kN";
         point.metric[k] = 100 + k;

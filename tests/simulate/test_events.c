@@ -82,7 +82,7 @@ static void a_swing_stop_is_reported_exactly_when_the_largest_swing_is_beyond_it
         for (int k = 0; k < collision.summary->n_interface; k++) {
             const CzInterfaceResult *interface = &collision.summary->interface[k];
             for (int side = 0; side < 2; side++) {
-                char where[CZ_WHERE_ROOM + 16];
+                char where[CZ_WHERE_SIZE + 16];
                 snprintf(where, sizeof where, "coupler %s",
                          collision.summary->vehicle[k + side].name);
                 const bool beyond = interface->swing[side] > interface->swing_stop[side];

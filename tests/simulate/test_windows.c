@@ -75,7 +75,7 @@ static void the_worst_window_is_found_in_a_short_run_and_in_long_ones(void **sta
     (void)state;
     const Shipped shipped = shipped_problems();
     for (int i = 0; i < shipped.n; i++) {
-        char file[SHIPPED_ROOM + 16];
+        char file[SHIPPED_SIZE + 16];
         snprintf(file, sizeof file, "problems/%s", shipped.name[i]);
         check_cars(file, WITH("simulation.output_step_ms=1", "simulation.duration_s=1"));
     }

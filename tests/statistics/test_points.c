@@ -97,7 +97,7 @@ static void sobol_points_are_those_of_an_independent_program(void **state) {
 static void each_part_of_a_sobol_draw_has_one_sample(void **state) {
     enum { N = 1024 };
     (void)state;
-    for (int draw = 0; draw < CZ_SOBOL_MOST_DRAWS; draw++) {
+    for (int draw = 0; draw < CZ_SOBOL_MAX_DRAWS; draw++) {
         double u[N];
         bool taken[N] = {false};
         cz_sobol_draw(5, draw, N, u);

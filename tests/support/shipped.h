@@ -6,11 +6,11 @@
 
 #include <dirent.h>
 
-enum { MOST_SHIPPED = 100, SHIPPED_ROOM = 80, FEWEST_SHIPPED = 10 };
+enum { MAX_SHIPPED = 100, SHIPPED_SIZE = 80, MIN_SHIPPED = 10 };
 
 typedef struct {
     int n;
-    char name[MOST_SHIPPED][SHIPPED_ROOM]; /* of the file, in problems/ */
+    char name[MAX_SHIPPED][SHIPPED_SIZE]; /* of the file, in problems/ */
 } Shipped;
 
 static inline int compare_names(const void *a, const void *b) {
@@ -25,12 +25,12 @@ static inline Shipped shipped_problems(void) {
         const size_t n = strlen(entry->d_name);
         if (n < 5 || strcmp(&entry->d_name[n - 5], ".yaml") != 0)
             continue;
-        assert_true(shipped.n < MOST_SHIPPED && n < SHIPPED_ROOM);
+        assert_true(shipped.n < MAX_SHIPPED && n < SHIPPED_SIZE);
         memcpy(shipped.name[shipped.n++], entry->d_name, n + 1);
     }
     closedir(folder);
-    assert_true(shipped.n >= FEWEST_SHIPPED);
-    qsort(shipped.name, (size_t)shipped.n, SHIPPED_ROOM, compare_names);
+    assert_true(shipped.n >= MIN_SHIPPED);
+    qsort(shipped.name, (size_t)shipped.n, SHIPPED_SIZE, compare_names);
     return shipped;
 }
 

@@ -116,7 +116,7 @@ wait_for_lines() {
 long_search="optimise two-trains.yaml --evaluations 200"
 # Sends a signal to one of the processes of mpirun, the number-th of them, or to mpirun itself (0); then resumes the search in
 # threads, which ends in the bytes of a search that was left alone.
-stopped_by() { # stopped_by SIGNAL NUMBER
+signalled() { # signalled SIGNAL NUMBER
     rm -rf killed
     mpirun --quiet --oversubscribe --allow-run-as-root -n 3 "$ranked" $long_search -o killed -q >out.txt 2>err.txt &
     job=$!
@@ -126,6 +126,9 @@ stopped_by() { # stopped_by SIGNAL NUMBER
     kill "-$1" "$victim"
     code=0
     wait $job || code=$?
+}
+stopped_by() { # stopped_by SIGNAL NUMBER
+    signalled "$1" "$2" || return 1
     [ "$code" != 0 ] || { echo "it ended with exit code 0"; return 1; }
     [ -d once ] || "$C" $long_search -o once -q >once.txt || [ $? = 1 ] || return 1
     "$C" optimise two-trains.yaml --resume killed -q >out.txt 2>err || [ $? = 1 ] || { cat err; return 1; }
@@ -134,6 +137,8 @@ stopped_by() { # stopped_by SIGNAL NUMBER
 check "a killed rank ends the job, and --resume ends in the same bytes" stopped_by KILL 3
 check "so does a killed rank 0" stopped_by KILL 1
 check "so does a search that is asked to end" stopped_by TERM 0
+with_results() { signalled TERM 1 && [ $code = 143 ] && says killed/outcome.json '"status": "interrupted"' && [ -s killed/report.html ]; }
+check "a signal to rank 0 ends a search with its results" with_results
 limit_is_kept() {
     rm -rf limited
     code=0

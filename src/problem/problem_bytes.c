@@ -2,11 +2,14 @@
  * a resolved file would do for a problem, but not for factors on values of its own file. */
 #include "problem/problem_bytes.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/error.h"
 #include "base/number.h"
 #include "problem/reading.h"
+#include "problem/varying.h"
 
 /* Behind the last step. */
 enum { END = -1 };
@@ -52,6 +55,19 @@ static void put_cases(CzMemoryText *bytes, const CzProblem *problem) {
         put_case(bytes, list->entry[i].value);
 }
 
+/* Variables as varying.c has written them. */
+static void put_varying(CzMemoryText *bytes, const CzProblem *problem) {
+    const CzNode *optimise = cz_node_find(problem->tree.root, "optimise")->value;
+    const CzNode *list = cz_node_find_list(optimise, "variables")->value;
+    cz_put_int(bytes, list->n_entry);
+    for (int i = 0; i < list->n_entry; i++) {
+        const CzNode *variable = list->entry[i].value;
+        cz_put_text(bytes, cz_node_find_text(variable, "path"));
+        cz_put_text(bytes, cz_node_find_text(variable, "min"));
+        cz_put_text(bytes, cz_node_find_text(variable, "max"));
+    }
+}
+
 static void put_step(CzMemoryText *bytes, const CzProblem *problem) {
     if (problem->origin != NULL)
         put_step(bytes, problem->origin);
@@ -62,6 +78,8 @@ static void put_step(CzMemoryText *bytes, const CzProblem *problem) {
         put_settings(bytes, problem);
     else if (problem->step == CZ_STEP_CASES)
         put_cases(bytes, problem);
+    else if (problem->step == CZ_STEP_VARYING)
+        put_varying(bytes, problem);
     else /* a worker cannot take this step: the owner runs all tasks */
         bytes->failed = true;
 }
@@ -152,6 +170,27 @@ static CzStatus get_cases(CzReading *reading, CzArena *arena, const CzProblem *o
     return cz_problem_read_cases(origin, n, made, problem, error);
 }
 
+/* Numbers with the ranges of their variables. */
+static CzStatus get_varying(CzReading *reading, CzArena *arena, const CzProblem *origin,
+                            CzProblem **problem, CzError *error) {
+    const int n = cz_get_int(reading);
+    CzVaryingNumber *number = NULL;
+    if (n >= 0 && (size_t)n <= reading->n_left)
+        number = cz_arena_allocate(arena, (size_t)n + 1, sizeof *number);
+    if (number == NULL)
+        return cz_no_memory(error, "a problem");
+    for (int i = 0; i < n; i++) {
+        const char *path = cz_get_text(reading, arena);
+        const char *min = cz_get_text(reading, arena), *max = cz_get_text(reading, arena);
+        if (path == NULL || min == NULL || max == NULL || !cz_number_scan(min, &number[i].min) ||
+            !cz_number_scan(max, &number[i].max))
+            return cz_no_memory(error, "a problem");
+        snprintf(number[i].path, sizeof number[i].path, "%s", path);
+        number[i].size = INFINITY; /* so that the range alone is the limit */
+    }
+    return cz_problem_read_varying(origin, n, number, problem, error);
+}
+
 static CzStatus get_step(CzReading *reading, CzArena *arena, int step, CzProblemSteps *steps,
                          CzError *error) {
     CzProblem **next = &steps->step[steps->n];
@@ -164,6 +203,8 @@ static CzStatus get_step(CzReading *reading, CzArena *arena, int step, CzProblem
         return get_settings(reading, arena, origin, next, error);
     if (step == CZ_STEP_CASES && origin != NULL)
         return get_cases(reading, arena, origin, next, error);
+    if (step == CZ_STEP_VARYING && origin != NULL)
+        return get_varying(reading, arena, origin, next, error);
     return cz_fail(error, CZ_STATUS_INPUT, "a worker cannot make this problem");
 }
 

@@ -5,8 +5,8 @@
 #include "base/bytes.h"
 #include "crushzone/problem.h"
 
-/* Appends file or text, options, and the settings and scenarios that were added; fails for a
- * problem that was changed in another way. */
+/* Appends file or text, options, and the settings, scenarios and variables that were added; fails
+ * for a problem that was changed in another way. */
 void cz_problem_put(CzMemoryText *bytes, const CzProblem *problem);
 
 enum { CZ_MAX_STEPS = 4 };

@@ -137,7 +137,7 @@ static bool set_variables(CzProblem *made, int n, const CzVaryingNumber *number)
 CzStatus cz_problem_read_varying(const CzProblem *problem, int n, const CzVaryingNumber *number,
                                  CzProblem **made, CzError *error) {
     CzSetting *none = NULL;
-    CzProblem *varying = cz_problem_create_again(problem, CZ_STEP_OTHER, 0, &none);
+    CzProblem *varying = cz_problem_create_again(problem, CZ_STEP_VARYING, 0, &none);
     *made = NULL;
     if (varying == NULL)
         return cz_no_memory(error, "the numbers that may vary");

@@ -6,6 +6,7 @@
 #include "crushzone/sample.h"
 #include "base/error.h"
 #include "evaluate/tasks.h"
+#include "problem/varying.h"
 #include "small_problem.h"
 
 enum { N_TASK = 100 };
@@ -269,8 +270,8 @@ static CzEvaluator *evaluator_with(const CzProblem *problem, const CzExecutor *e
     return evaluator;
 }
 
-/* The problem as written, and with settings and cases that were added, as a search against scatter
- * has them. */
+/* The problem as written, with cases that were added, as a search against scatter has them, with
+ * variables, as an explanation has them, and with settings. */
 static void runs_are_the_same_bits_with_workers(void **state) {
     (void)state;
     Loop loop;
@@ -283,24 +284,30 @@ static void runs_are_the_same_bits_with_workers(void **state) {
     const CzCaseChange change[] = {{"parts.anti-climber.stages[0].force_kN", CZ_CASE_FACTOR, 1.07},
                                    {"scenario.speed_km_h", CZ_CASE_ADD, 0.3}};
     const CzCase cases[] = {{.name = "more", .scenario = 1, .n_change = 2, .change = change}};
-    CzProblem *step[3] = {small_problem(scatter), NULL, NULL};
+    const CzVaryingNumber varying[] = {
+        {"parts.tube.stages[0].force_kN", .value = 800, .min = 1, .max = 2000, .size = 700.1},
+        {"parts.anti-climber.stages[0].force_kN", .value = 300, .min = 1, .max = 900, .size = 600}};
+    CzProblem *step[4] = {small_problem(scatter), NULL, NULL, NULL};
     assert_int_equal(cz_problem_read_cases(step[0], 1, cases, &step[1], NULL), CZ_OK);
-    assert_int_equal(cz_problem_read_again(step[0], 1, path, value, &step[2], NULL), CZ_OK);
-    for (int i = 0; i < 2; i++)
+    assert_int_equal(cz_problem_read_varying(step[0], 2, varying, &step[2], NULL), CZ_OK);
+    assert_int_equal(cz_problem_read_again(step[0], 1, path, value, &step[3], NULL), CZ_OK);
+    for (int i = 0; i < 3; i++)
         for (int with_aim = 0; with_aim < 2; with_aim++) {
             const CzAim *own = with_aim ? &aim : NULL;
+            const int n_answer = loop.n_answer;
             CzEvaluator *here = evaluator_with(step[i], &none, own);
             CzEvaluator *there = evaluator_with(step[i], &workers, own);
             compare_designs(here, there);
+            assert_true(loop.n_answer > n_answer);
             cz_evaluator_free(here);
             cz_evaluator_free(there);
         }
-    CzSampling *here = sample_with(step[2], &none), *there = sample_with(step[2], &workers);
+    CzSampling *here = sample_with(step[3], &none), *there = sample_with(step[3], &workers);
     assert_memory_equal(here->margin, there->margin,
                         (size_t)(here->n_sample * here->n_check) * sizeof(double));
     cz_sampling_free(here);
     cz_sampling_free(there);
-    for (int i = 2; i >= 0; i--)
+    for (int i = 3; i >= 0; i--)
         cz_problem_free(step[i]);
     end_loop(&loop);
 }

@@ -30,17 +30,6 @@ typedef struct Descent {
 
 /* ---- merit of designs ------------------------------------------------------------------------ */
 
-/* Sum of the compressed violations of a record. */
-static double penalty_of(const CzSurface *surface, long number) {
-    const CzRecord *record = &surface->search->record[number];
-    const double *c = cz_search_detail(surface->search, number);
-    double penalty = record->violation > 0 && record->missed <= 0 ? record->violation : 0;
-    for (int k = 0; k < surface->m; k++)
-        if (c[k] > 0)
-            penalty += cz_search_compressed(c[k]);
-    return penalty;
-}
-
 /* Objective of a record: where the smallest margin is maximised, that of the details. */
 static double objective_of(const CzSurface *surface, long number) {
     const double *c = cz_search_detail(surface->search, number);
@@ -56,7 +45,7 @@ static double merit_of(const CzSurface *surface, long number) {
     if (isnan(surface->search->record[number].objective))
         return INFINITY;
     return objective_of(surface, number) / surface->scale +
-           surface->weight * penalty_of(surface, number);
+           surface->weight * cz_surface_penalty(surface, number);
 }
 
 /* Sets the base to the record of the descent with the least merit. */
@@ -74,13 +63,6 @@ static void choose_base(Descent *descent) {
 }
 
 /* ---- the best design on the response --------------------------------------------------------- */
-
-static double distance(const double *a, const double *b, int n) {
-    double largest = 0;
-    for (int i = 0; i < n; i++)
-        largest = fmax(largest, fabs(a[i] - b[i]));
-    return largest;
-}
 
 /* Merit on the response, whose planes at u the surface gets. */
 static double merit_at(const Descent *descent, const double *u) {
@@ -117,7 +99,7 @@ static void find_best(Descent *descent) {
             break;
         const double other = merit_at(descent, descent->next);
         const double ratio = (merit - other) / planned;
-        const double step = distance(descent->next, descent->best, (int)n);
+        const double step = cz_largest_difference(descent->next, descent->best, (int)n);
         if (ratio > 0) {
             memcpy(descent->best, descent->next, n * sizeof *descent->best);
             merit = other;
@@ -211,7 +193,7 @@ static void list_directions(Descent *descent, double near) {
         if (record == descent->base || isnan(search->record[record].objective))
             continue;
         cz_search_scale(search, cz_search_x(search, record), d);
-        if (distance(d, descent->u, n) > near)
+        if (cz_largest_difference(d, descent->u, n) > near)
             continue;
         for (int i = 0; i < n; i++) {
             d[i] -= descent->u[i];
@@ -281,7 +263,8 @@ static bool begin(Descent *descent, const double *x) {
     const bool is_minimax = search->function->is_minimax;
     surface->scale = is_minimax || !(size > 1e-9) ? 1 : size;
     /* where no design passes, the largest violation is the objective */
-    surface->weight = is_minimax && penalty_of(surface, descent->base) > 0 ? 0 : first_weight;
+    surface->weight =
+        is_minimax && cz_surface_penalty(surface, descent->base) > 0 ? 0 : first_weight;
     descent->radius = first_radius;
     cz_search_scale(search, cz_search_x(search, descent->base), descent->u);
     return explore(descent, 0.02, first_radius);
@@ -315,7 +298,7 @@ static bool try_best(Descent *descent) {
     CzSurface *surface = descent->surface;
     CzSearch *search = surface->search;
     const double planned = planned_gain(descent);
-    const double step = distance(descent->best, descent->u, surface->n);
+    const double step = cz_largest_difference(descent->best, descent->u, surface->n);
     cz_search_unscale(search, 1, descent->best, surface->x);
     if (cz_search_find(search, surface->x) >= 0 || !evaluate(descent, 1))
         return false;
@@ -328,7 +311,8 @@ static bool try_best(Descent *descent) {
         descent->radius = 0.6 * fmin(fmax(step, 0.4 * descent->radius), descent->radius);
     descent->n_idle = gain > 0.1 * fmax(planned, 1e-4) ? 0 : descent->n_idle + 1;
     if (gain > 0)
-        raise_weight(descent, penalty_of(surface, record), penalty_of(surface, descent->base));
+        raise_weight(descent, cz_surface_penalty(surface, record),
+                     cz_surface_penalty(surface, descent->base));
     return true;
 }
 
@@ -336,9 +320,9 @@ static void descend(Descent *descent) {
     const CzSearch *search = descent->surface->search;
     while (search->n_record < descent->limit && !search->is_over && fit(descent)) {
         find_best(descent);
-        const bool is_worth =
-            planned_gain(descent) > least_gain &&
-            distance(descent->best, descent->u, descent->surface->n) > smallest_radius / 4;
+        const bool is_worth = planned_gain(descent) > least_gain &&
+                              cz_largest_difference(descent->best, descent->u,
+                                                    descent->surface->n) > smallest_radius / 4;
         if (is_worth && !try_best(descent))
             return;
         if (is_worth && descent->n_idle < MAX_IDLE && descent->radius > smallest_radius)

@@ -236,11 +236,9 @@ double cz_surface_merit_at(const CzSurface *surface, const double *u, const doub
 
 /* ---- moving ---------------------------------------------------------------------------------- */
 
-/* Sum of the compressed violations of point `point` of the last evaluation, as the planes have
- * them; infinite when it failed. */
-static double penalty_of(const CzSurface *surface, long number, int point) {
+double cz_surface_penalty(const CzSurface *surface, long number) {
     const CzRecord *record = &surface->search->record[number];
-    const double *c = surface->many_d + point * surface->m;
+    const double *c = cz_search_detail(surface->search, number);
     if (isnan(record->objective))
         return INFINITY;
     double penalty = record->violation > 0 && record->missed <= 0 ? record->violation : 0;
@@ -253,13 +251,6 @@ static double penalty_of(const CzSurface *surface, long number, int point) {
  * constraint by little is a good base, because the planes then lead to one that does not. */
 static double merit(const CzSurface *surface, double objective, double penalty) {
     return objective / surface->scale + surface->weight * penalty;
-}
-
-static double farthest_step(const CzSurface *surface, const double *u) {
-    double largest = 0;
-    for (int i = 0; i < surface->n; i++)
-        largest = fmax(largest, fabs(u[i] - surface->u[i]));
-    return largest;
 }
 
 /* A step of a descent. */
@@ -292,7 +283,7 @@ static int try_steps(CzSurface *surface, const char *phase, int n_step, Step *st
     const double before = merit(surface, surface->f, surface->penalty);
     int best = 0, shortest = 0;
     for (int i = 0; i < n_step; i++) {
-        penalty[i] = penalty_of(surface, first + i, i);
+        penalty[i] = cz_surface_penalty(surface, first + i);
         step[i].gain =
             before - (isfinite(penalty[i]) ? merit(surface, objective_of(surface, i), penalty[i])
                                            : INFINITY);
@@ -356,7 +347,7 @@ static bool begin_descent(CzSurface *surface, const char *phase, const double *x
     const double size = fabs(surface->f);
     surface->scale = surface->search->function->is_minimax || !(size > 1e-9) ? 1 : size;
     surface->weight = first_weight;
-    surface->penalty = penalty_of(surface, search->n_record - 1, 0);
+    surface->penalty = cz_surface_penalty(surface, search->n_record - 1);
     surface->n_outside = 0;
     free(u);
     return isfinite(surface->penalty) && refresh(surface, phase, secant);
@@ -383,7 +374,7 @@ static int list_steps(const CzSurface *surface, double radius, double smallest, 
                 return 0;
             continue;
         }
-        listed->length = farthest_step(surface, next);
+        listed->length = cz_largest_difference(next, surface->u, n);
         listed->wanted = here - cz_surface_merit_at(surface, next, NULL);
         bool is_new = i == 0 || is_worth(listed, smallest);
         for (int k = 0; k < n_step && is_new; k++)

@@ -67,6 +67,18 @@ static inline double cz_surface_counted(double largest, const CzSurface *surface
     return cz_surface_counts(surface, k) ? fmax(largest, c) : largest;
 }
 
+/* Sum of the compressed violations of a record, as planes and responses have them; infinite where
+ * its run failed. */
+double cz_surface_penalty(const CzSurface *surface, long record);
+
+/* Largest difference of a variable between two scaled designs. */
+static inline double cz_largest_difference(const double *a, const double *b, int n) {
+    double largest = 0;
+    for (int i = 0; i < n; i++)
+        largest = fmax(largest, fabs(a[i] - b[i]));
+    return largest;
+}
+
 /* Planes at scaled u: returns the objective and adds up the violations as the search ranks them. */
 double cz_surface_predict(const CzSurface *surface, const double *u, double *penalty);
 

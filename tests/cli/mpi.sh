@@ -118,7 +118,8 @@ long_search="optimise two-trains.yaml --evaluations 200"
 # threads, which ends in the bytes of a search that was left alone.
 signalled() { # signalled SIGNAL NUMBER
     rm -rf killed
-    mpirun --quiet --oversubscribe --allow-run-as-root -n 3 "$ranked" $long_search -o killed -q >out.txt 2>err.txt &
+    # ranks of an mpirun that was asked to end have a second for it
+    OMPI_MCA_odls_base_sigkill_timeout=1 mpirun --quiet --oversubscribe --allow-run-as-root -n 3 "$ranked" $long_search -o killed -q >out.txt 2>err.txt &
     job=$!
     wait_for_lines killed 10 || { echo "there is no journal"; kill $job; wait $job; return 1; }
     victim=$job

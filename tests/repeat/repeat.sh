@@ -5,7 +5,7 @@
 build() { # build FOLDER OPTION...
     folder=$1
     shift
-    cmake -S "$SOURCE" -B "$folder" -G Ninja -DCZ_BUILD_TESTS=OFF "$@" && cmake --build "$folder"
+    cmake -S "$SOURCE" -B "$folder" -G Ninja -DCZ_BUILD_TESTS=OFF "$@" && cmake --build "$folder" --target crushzone-program
 }
 build_clang() { # as scripts/run-tests configures it
     (cd "$SOURCE" && cmake --preset clang -DCZ_BUILD_TESTS=ON && cmake --build --preset clang --target crushzone-program)

@@ -12,7 +12,18 @@ enum { MAX_SWEEPS = 30 };
 #define NEGLIGIBLE                                                                                 \
     1e-18 /* of two diagonal elements: a rotation would not change them by a smaller element */
 
-/* Rotates rows and columns p and q so that a[p][q] vanishes, and the vectors with them. */
+/* Rotates two rows. */
+static void rotate_rows(int n, double *restrict p, double *restrict q, double c, double s) {
+#pragma omp simd
+    for (int k = 0; k < n; k++) {
+        const double pk = p[k], qk = q[k];
+        p[k] = c * pk - s * qk;
+        q[k] = s * pk + c * qk;
+    }
+}
+
+/* Rotates rows and columns p and q so that a[p][q] vanishes, and the rows of the vectors with them.
+ */
 static void rotate(int n, double *a, double *vectors, int p, int q) {
     const double theta = (a[q * n + q] - a[p * n + p]) / (2.0 * a[p * n + q]);
     const double t = (theta >= 0.0 ? 1.0 : -1.0) / (fabs(theta) + sqrt(theta * theta + 1.0));
@@ -22,14 +33,8 @@ static void rotate(int n, double *a, double *vectors, int p, int q) {
         a[k * n + p] = c * kp - s * kq;
         a[k * n + q] = s * kp + c * kq;
     }
-    for (int k = 0; k < n; k++) {
-        const double pk = a[p * n + k], qk = a[q * n + k];
-        a[p * n + k] = c * pk - s * qk;
-        a[q * n + k] = s * pk + c * qk;
-        const double vp = vectors[k * n + p], vq = vectors[k * n + q];
-        vectors[k * n + p] = c * vp - s * vq;
-        vectors[k * n + q] = s * vp + c * vq;
-    }
+    rotate_rows(n, &a[p * n], &a[q * n], c, s);
+    rotate_rows(n, &vectors[p * n], &vectors[q * n], c, s);
 }
 
 /* Returns the number of rotations. */
@@ -44,12 +49,22 @@ static int sweep(int n, double *a, double *vectors) {
     return n_rotation;
 }
 
+static void transpose(int n, double *a) {
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < i; j++) {
+            const double kept = a[i * n + j];
+            a[i * n + j] = a[j * n + i];
+            a[j * n + i] = kept;
+        }
+}
+
 void cz_symmetric_diagonalise(int n, double *a, double *vectors) {
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
             vectors[i * n + j] = i == j;
     for (int i = 0; i < MAX_SWEEPS && sweep(n, a, vectors) > 0; i++)
         ;
+    transpose(n, vectors); /* to columns */
 }
 
 bool cz_symmetric_factor(int n, double *a) {

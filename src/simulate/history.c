@@ -2,6 +2,11 @@
 #include "simulate/run.h"
 
 #include <stdlib.h>
+#include <string.h>
+
+/* Numbers from one quantity of a chunk to the next: a few more than its steps, so that the numbers
+ * of one step are not all in the same set of the first cache. */
+enum { STRIDE = CZ_CHUNK + CZ_LANE_BLOCK };
 
 CzStatus cz_history_add(const CzBatch *batch, int design) {
     CzHistory *history = &batch->design[design].history;
@@ -11,18 +16,17 @@ CzStatus cz_history_add(const CzBatch *batch, int design) {
         if (chunks == NULL)
             return CZ_STATUS_NO_MEMORY;
         history->chunk = chunks;
-        chunks[history->n_chunk] = malloc(2 * CZ_CHUNK * n_car * sizeof(double));
+        chunks[history->n_chunk] = malloc(2 * STRIDE * n_car * sizeof(double));
         if (chunks[history->n_chunk] == NULL)
             return CZ_STATUS_NO_MEMORY;
         ++history->n_chunk;
     }
-    double *sample =
-        history->chunk[history->n_chunk - 1] + (size_t)(history->n_step % CZ_CHUNK) * 2 * n_car;
-    for (int car = 0; car < batch->n_car; ++car, sample += 2) {
+    double *speed = history->chunk[history->n_chunk - 1] + history->n_step % CZ_CHUNK;
+    for (int car = 0; car < batch->n_car; ++car, speed += 2 * STRIDE) {
         const size_t lane = cz_lane(batch, car, design), i = lane % CZ_LANE_BLOCK;
         const CzBlock *block = cz_block_of(batch->dynamics, lane);
-        sample[0] = block->velocity.body.x[i];
-        sample[1] = block->published.interface.force[i];
+        speed[0] = block->velocity.body.x[i];
+        speed[STRIDE] = block->published.interface.force[i];
     }
     ++history->n_step;
     return CZ_OK;
@@ -36,10 +40,13 @@ void cz_history_free(CzHistory *history) {
     history->n_chunk = history->n_step = 0;
 }
 
-/* Values of a car after the first step of a chunk, its speed and the force of the interface ahead
- * of it; those after the next step are two numbers for each car further. */
-static const double *values_in(const CzHistory *history, int chunk, int car) {
-    return history->chunk[chunk] + 2 * car;
+/* Speeds of a car in a chunk, and forces of the interface ahead of it. */
+static const double *speeds_in(const CzHistory *history, int chunk, int car) {
+    return history->chunk[chunk] + 2 * STRIDE * car;
+}
+
+static const double *forces_in(const CzHistory *history, int chunk, int car) {
+    return speeds_in(history, chunk, car) + STRIDE;
 }
 
 /* Steps that a chunk holds. */
@@ -49,16 +56,19 @@ static int n_in_chunk(const CzHistory *history, int chunk) {
 }
 
 /* Speeds of a car, and the net contact forces on it: the push from behind less that from ahead. */
-static void copy_steps(const CzBatch *batch, int car, int design, double *speed, double *force) {
+static void copy_steps(const CzBatch *batch, int car, int design, double *restrict speed,
+                       double *restrict force) {
+    static const double none[CZ_CHUNK] = {0.0};
     const CzHistory *history = &batch->design[design].history;
-    const int stride = 2 * batch->n_car;
-    const bool first = car == 0, last = car == batch->n_car - 1;
-    for (int chunk = 0, i = 0; chunk < history->n_chunk; ++chunk) {
-        const double *values = values_in(history, chunk, car);
-        for (int k = n_in_chunk(history, chunk); k > 0; --k, ++i, values += stride) {
-            speed[i] = values[0];
-            force[i] = (first ? 0.0 : values[-1]) - (last ? 0.0 : values[1]);
-        }
+    for (int chunk = 0; chunk < history->n_chunk; ++chunk) {
+        const int n = n_in_chunk(history, chunk), first = chunk * CZ_CHUNK;
+        const double *restrict behind = car == 0 ? none : forces_in(history, chunk, car - 1);
+        const double *restrict ahead =
+            car == batch->n_car - 1 ? none : forces_in(history, chunk, car);
+        memcpy(speed + first, speeds_in(history, chunk, car), (size_t)n * sizeof *speed);
+#pragma omp simd
+        for (int k = 0; k < n; ++k)
+            force[first + k] = behind[k] - ahead[k];
     }
 }
 
@@ -85,9 +95,7 @@ bool cz_history_pulse(const CzBatch *batch, int car, int design, CzArena *arena,
 
 void cz_history_forces(const CzBatch *batch, int interface, int design, double *force) {
     const CzHistory *history = &batch->design[design].history;
-    for (int chunk = 0, i = 0; chunk < history->n_chunk; ++chunk) {
-        const double *values = values_in(history, chunk, interface);
-        for (int k = n_in_chunk(history, chunk); k > 0; --k, values += 2 * batch->n_car)
-            force[i++] = values[1];
-    }
+    for (int chunk = 0; chunk < history->n_chunk; ++chunk)
+        memcpy(force + chunk * CZ_CHUNK, forces_in(history, chunk, interface),
+               (size_t)n_in_chunk(history, chunk) * sizeof *force);
 }

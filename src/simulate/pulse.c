@@ -99,20 +99,22 @@ static double largest_change(const double *speed, int n_start, int length) {
 }
 
 /* A longest-mean window is shorter than twice the smallest length, because a longer one splits into
- * two of which one has at least its mean. Windows in which the speed hardly changes are skipped in
- * groups, because they are most of a run. */
+ * two of which one has at least its mean. The largest mean of the shortest windows is found first:
+ * groups of windows in which the speed changes less than that requires are skipped. */
 double cz_pulse_sliding_mean(const CzPulse *pulse, double shortest_time, double window[2]) {
     enum { AT_ONCE = 64 };
     const double *speed = pulse->speed, step = pulse->step;
     const int n_sample = pulse->n_sample, shortest = (int)ceil(shortest_time / step - 1e-9);
-    double largest = 0.0;
-    int longest = 0; /* the window's length [sample], the shortest of equals */
-    for (int first = 0; first < n_sample - shortest; first += AT_ONCE) {
+    if (n_sample <= shortest)
+        return 0.0;
+    double largest = largest_change(speed, n_sample - shortest, shortest) / (shortest * step);
+    int longest = largest > 0.0 ? shortest : 0; /* its length [sample], the shortest of equals */
+    for (int first = 0; longest > 0 && first < n_sample - shortest; first += AT_ONCE) {
         const int left = n_sample - first, reach = AT_ONCE + 2 * shortest;
         const double range = range_of(speed + first, left < reach ? left : reach);
-        if (range == 0.0 || range / (shortest * step) < largest)
+        if (range / ((shortest + 1) * step) < largest)
             continue;
-        for (int length = shortest; length <= 2 * shortest && length < left; ++length) {
+        for (int length = shortest + 1; length <= 2 * shortest && length < left; ++length) {
             if (range / (length * step) < largest)
                 break;
             const int n_start = left - length < AT_ONCE ? left - length : AT_ONCE;

@@ -26,7 +26,7 @@ struct CzRun {
 typedef struct CzHistory {
     int n_step;
     int n_chunk;
-    double **chunk; /* CZ_CHUNK steps each: speed and force of each car in turn */
+    double **chunk; /* CZ_CHUNK steps each: speeds and forces of each car in turn */
 } CzHistory;
 enum { CZ_CHUNK = 1024 };
 

@@ -113,13 +113,15 @@ static void divide_full(CzBlock *d) {
 static void evaluate_interfaces(const CzDynamics *dynamics, int index, double step) {
     const CzLanes *lanes = dynamics->lanes;
     CzBlock *d = &dynamics->block[index];
+    Normal of_ends;
     if (lanes->has.couplers)
         couplers(d, step);
-    faces(dynamics, index, step);
+    line_up_normal(d, end_at(d, 0), end_at(d, 1), &of_ends);
+    faces(dynamics, index, &of_ends, step);
     if (lanes->has.side_buffers)
-        side_buffers(d, step);
+        side_buffers(d, &of_ends, step);
     if (lanes->has.superstructures)
-        superstructures(d);
+        superstructures(d, &of_ends);
     if (lanes->has.draw_gears)
         draw_gears(d);
 }

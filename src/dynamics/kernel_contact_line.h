@@ -11,50 +11,71 @@
 #include "dynamics/kernel_carrier.h"
 #include "dynamics/kernel_chain_solve.h"
 
+/* Mean normal of two faces, from side A to side B. */
+typedef struct {
+    _Alignas(64) CzRow x, z;
+} Normal;
+
 /* Geometry and force of a contact. */
 typedef struct {
+    const Normal *normal;
     _Alignas(64) CzRow closure;
     CzRow rate;
     CzRow slip_vertical; /* displacement of side A over side B across the normal */
     CzRow slip_rate;
-    CzRow normal_x, normal_z; /* from side A to side B */
     CzRow arm_x[2], arm_z[2]; /* point of action from the carriers' centres of gravity */
     CzRow force_x, force_z;   /* on side B */
 } Contact;
 
 /* ---- geometry ---- */
 
-/* Mean normal: it turns at the mean rate of both carriers. */
-static void line_up_normal(CzCarrier a, CzCarrier b, const double *restrict tilts,
-                           Contact *restrict contact) {
+/* The normal turns at the mean rate of both carriers; where nothing tilts, it is along the track.
+ */
+static void line_up_normal(const CzBlock *d, CzCarrier a, CzCarrier b, Normal *restrict normal) {
+    const double *restrict tilts = d->parameter.tilts;
+    if (!d->has_tilts) {
+        CZ_LANES (i) {
+            normal->x[i] = 1.0;
+            normal->z[i] = 0.0;
+        }
+        return;
+    }
     CZ_LANES (i) {
         const double sum_x = a.turned->cosine[i] + b.turned->cosine[i];
         const double sum_z = tilts[i] * (a.turned->sine[i] + b.turned->sine[i]);
         const double size = sqrt(sum_x * sum_x + sum_z * sum_z);
-        contact->normal_x[i] = sum_x / size;
-        contact->normal_z[i] = sum_z / size;
+        normal->x[i] = sum_x / size;
+        normal->z[i] = sum_z / size;
     }
 }
 
-/* Where nothing tilts, it is along the track. */
-static void level_normal(Contact *restrict contact) {
+/* The vector between the face centres; level where nothing tilts. */
+static inline CzPair pair_of_faces(CzCarrier a, CzCarrier b, const CzPairRows *at,
+                                   const double *restrict tilts, size_t i) {
+    CzPair pair = cz_pair_of(a, b, at, i);
+    pair.z = tilts[i] * pair.z;
+    return pair;
+}
+
+/* The closure alone. */
+static void line_up_closure(const CzBlock *d, CzCarrier a, CzCarrier b, const CzPairRows *at,
+                            const Normal *normal, double *restrict closure) {
+    const double *restrict nx = normal->x, *restrict nz = normal->z;
+    const double *restrict tilts = d->parameter.tilts;
     CZ_LANES (i) {
-        contact->normal_x[i] = 1.0;
-        contact->normal_z[i] = 0.0;
+        const CzPair pair = pair_of_faces(a, b, at, tilts, i);
+        closure[i] = -(nx[i] * pair.x + nz[i] * pair.z);
     }
 }
 
 static void line_up_contact(const CzBlock *d, CzCarrier a, CzCarrier b, const CzPairRows *at,
-                            Contact *restrict contact) {
+                            const Normal *normal, Contact *restrict contact) {
+    const double *restrict normal_x = normal->x, *restrict normal_z = normal->z;
     const double *restrict tilts = d->parameter.tilts;
-    if (d->has_tilts)
-        line_up_normal(a, b, tilts, contact);
-    else
-        level_normal(contact);
+    contact->normal = normal;
     CZ_LANES (i) {
-        CzPair pair = cz_pair_of(a, b, at, i);
-        pair.z = tilts[i] * pair.z;
-        const double nx = contact->normal_x[i], nz = contact->normal_z[i];
+        const CzPair pair = pair_of_faces(a, b, at, tilts, i);
+        const double nx = normal_x[i], nz = normal_z[i];
         const CzPair met = cz_met_midway(a, b, pair, i);
         const double vx = met.a.velocity_x - met.b.velocity_x;
         const double vz = met.a.velocity_z - met.b.velocity_z;
@@ -70,9 +91,9 @@ static void line_up_contact(const CzBlock *d, CzCarrier a, CzCarrier b, const Cz
 }
 
 /* Slope of the faces. */
-static void line_up_ramp(const Contact *restrict contact, double *restrict ramp) {
+static void line_up_ramp(const Normal *restrict normal, double *restrict ramp) {
     CZ_LANES (i) {
-        ramp[i] = fabs(contact->normal_z[i]) / contact->normal_x[i];
+        ramp[i] = fabs(normal->z[i]) / normal->x[i];
     }
 }
 
@@ -82,8 +103,9 @@ static void line_up_ramp(const Contact *restrict contact, double *restrict ramp)
 static void put_contact(CzPlane *on_a, CzPlane *on_b, Contact *restrict contact,
                         const double *restrict normal, const double *restrict tangential,
                         double *restrict total) {
+    const double *restrict normal_x = contact->normal->x, *restrict normal_z = contact->normal->z;
     CZ_LANES (i) {
-        const double nx = contact->normal_x[i], nz = contact->normal_z[i];
+        const double nx = normal_x[i], nz = normal_z[i];
         const double fx = normal[i] * nx - tangential[i] * nz;
         const double fz = normal[i] * nz + tangential[i] * nx;
         const CzPoint a = {.arm_x = contact->arm_x[0][i], .arm_z = contact->arm_z[0][i]};
@@ -111,11 +133,12 @@ static void put_drop(CzBlock *d, const Contact *restrict contact, const ChainSta
     double *restrict drop = d->published.interface.drop,
                      *restrict section = d->published.section[1],
                      *restrict pushed = d->pushed.section;
+    const double *restrict normal_x = contact->normal->x;
     CZ_LANES (i) {
         const double held =
             normal[i] / cz_larger(now->force[i], 1.0); /* with damping and lost overlap */
         const double more = held * cz_positive_part(now->top[i] - now->force[i]);
-        const double lost = more * contact->normal_x[i];
+        const double lost = more * normal_x[i];
         top[i] = normal[i] + more;
         drop[i] += lost;
         section[i] += slaved[i] * lost;

@@ -11,8 +11,10 @@ static void draw_gears(CzBlock *d) {
     const CzDrawGearRows *restrict rows = &d->parameter.draw_gear;
     double *restrict force = d->published.draw_gear.force;
     double *restrict power = d->power->draw_gear;
+    Normal normal;
     Contact contact;
-    line_up_contact(d, body_at(d, 0), body_at(d, 1), &rows->contact, &contact);
+    line_up_normal(d, body_at(d, 0), body_at(d, 1), &normal);
+    line_up_contact(d, body_at(d, 0), body_at(d, 1), &rows->contact, &normal, &contact);
     CZ_LANES (i) {
         force[i] = cz_draw_gear(rows->stiffness[i], rows->slack[i], contact.closure[i]);
         power[i] += force[i] * contact.rate[i];

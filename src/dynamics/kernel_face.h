@@ -186,10 +186,10 @@ static void push_faces(CzBlock *d, const Contact *contact, FaceChain *of) {
 }
 
 /* Evaluates all anti-climbers and bare ends. */
-static void faces(const CzDynamics *dynamics, int index, double step) {
+static void faces(const CzDynamics *dynamics, int index, const Normal *normal, double step) {
     CzBlock *d = &dynamics->block[index];
     Contact contact;
-    line_up_contact(d, end_at(d, 0), end_at(d, 1), &d->parameter.face.contact, &contact);
+    line_up_contact(d, end_at(d, 0), end_at(d, 1), &d->parameter.face.contact, normal, &contact);
     if (d->faces_rest && !is_within(contact.closure, d->face_reach)) {
         leave_faces(d, &contact);
         return;
@@ -207,7 +207,7 @@ static void faces(const CzDynamics *dynamics, int index, double step) {
     }
     count_held(&d->memory->face, &d->next_memory->face, d->parameter.face.compliance);
     if (d->has_tilts)
-        line_up_ramp(&contact, d->published.face.ramp);
+        line_up_ramp(normal, d->published.face.ramp);
     if (d->can_climb)
         grip_faces(d, &contact);
     put_contact(force_on_end(d, 0), force_on_end(d, 1), &contact, d->published.face.force,

@@ -56,12 +56,12 @@ static void slide_plates(CzBlock *d, const Contact *restrict contact,
 }
 
 /* Evaluates all side buffers, which act on the end masses, in series with the crush zones. */
-static void side_buffers(CzBlock *d, double step) {
+static void side_buffers(CzBlock *d, const Normal *normal, double step) {
     const CzSideBufferRows *rows = &d->parameter.side_buffers;
     Contact contact;
     PlateRise rise;
     BufferChain of;
-    line_up_contact(d, end_at(d, 0), end_at(d, 1), &rows->contact, &contact);
+    line_up_contact(d, end_at(d, 0), end_at(d, 1), &rows->contact, normal, &contact);
     memcpy(d->published.side_buffers.closure, contact.closure, sizeof(CzRow));
     freeze_speed(&contact, d->memory->side_buffers.speed, d->next_memory->side_buffers.speed,
                  rows->side[0].speed_factor, rows->side[1].speed_factor, rise.of);

@@ -323,14 +323,14 @@ static int accept_plastic(Chain *chain, int number, const double *restrict strok
     CZ_LANES_MAX(i, some_change) {
         const double moved = stroke[i] - committed[i];
         const double tangent = cz_positive_part(curve->slope[i]);
-        const double compliance = cz_plastic_compliance(curve->value[i], tangent, rate[i], step);
+        const double resistance = cz_plastic_resistance(curve->value[i], tangent, rate[i], step);
         const double start = curve->value[i] - tangent * moved;
         const double crushes = moved > 0.0 ? now->active[i] : 0.0;
-        const double off = crushes * fabs(start + moved / compliance - now->force[i]);
+        const double off = crushes * fabs(start + moved * resistance - now->force[i]);
         const double changed = off > LAW_TOLERANCE ? 1.0 : 0.0;
         now->distance[i] = cz_larger(now->distance[i], off);
         plastic->strength[i] = changed > 0.0 ? start : plastic->strength[i];
-        plastic->compliance[i] = changed > 0.0 ? compliance : plastic->compliance[i];
+        plastic->compliance[i] = changed > 0.0 ? 1.0 / resistance : plastic->compliance[i];
         some_change = cz_larger(some_change, changed);
     }
     return some_change > 0.0;

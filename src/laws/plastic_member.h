@@ -16,12 +16,17 @@
 
 #define CZ_SMALLEST_RESISTANCE 1e5 /* [N/m] (ours) */
 
+/* Increase of the force with the plastic stroke over one step [N/m]. */
+static inline double cz_plastic_resistance(double strength, double slope, double rate_factor,
+                                           double step) {
+    const double per_step = 1.0 / step; /* one division for all lanes */
+    return cz_positive_part(slope) + strength * rate_factor * per_step + CZ_SMALLEST_RESISTANCE;
+}
+
 /* Plastic stroke per excess force over one step [m/N]. */
 static inline double cz_plastic_compliance(double strength, double slope, double rate_factor,
                                            double step) {
-    const double per_step = 1.0 / step; /* one division for all lanes */
-    return 1.0 /
-           (cz_positive_part(slope) + strength * rate_factor * per_step + CZ_SMALLEST_RESISTANCE);
+    return 1.0 / cz_plastic_resistance(strength, slope, rate_factor, step);
 }
 
 /* Plastic stroke of the step under the chain's force [m], never negative. */

@@ -14,7 +14,7 @@
 static int superstructures_meet(const CzSuperstructureRows *restrict rows,
                                 const double *restrict closure, const double *restrict set) {
     double meet = 0.0;
-    CZ_LANES_MOST(i, meet) {
+    CZ_LANES_MAX(i, meet) {
         meet = cz_larger(meet, closure[i] <= set[i] ? 0.0 : rows->strength[i]);
     }
     return meet > 0.0;

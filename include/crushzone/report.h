@@ -46,6 +46,8 @@ typedef struct CzReportOptions {
     const char *const *shard_word; /* of a shard: options of the command line that results depend
                                       on, for shard.jsonl (n_shard_word); NULL of a whole run */
     int n_shard_word;
+    int text_width;       /* characters of a line of a terminal, which wider tables wrap their cells
+                             to fit; 0: any */
     bool replaces_search; /* a result folder with the result of a search may be replaced by another
                              result */
 } CzReportOptions;

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 enum { LARGEST_INPUT = 20 << 20 }; /* more than any problem file may have [byte] */
@@ -145,12 +146,23 @@ static int end_results(const CzArguments *arguments, CzStatus status, const CzEr
     return cz_status_exit_code(status);
 }
 
+/* Characters of a line of standard output; 0 where it is no terminal, or its size is unknown. */
+static int terminal_width(void) {
+    struct winsize size;
+    return isatty(STDOUT_FILENO) && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+}
+
 int cz_print_results(const CzArguments *arguments, const CzReport *report) {
     const bool colour = cz_uses_colour(arguments, STDOUT_FILENO);
+    CzReportOptions options =
+        report->options != NULL ? *report->options : cz_report_options_default();
+    options.text_width = terminal_width();
+    CzReport printed = *report;
+    printed.options = &options;
     CzError error = {0};
     const CzStatus status = arguments->text[CZ_OPTION_JSON] != NULL
-                                ? cz_report_write_json(report, stdout, &error)
-                                : cz_report_write_table(report, colour, stdout, &error);
+                                ? cz_report_write_json(&printed, stdout, &error)
+                                : cz_report_write_table(&printed, colour, stdout, &error);
     return end_results(arguments, status, &error);
 }
 

@@ -185,16 +185,28 @@ static void write_columns(const CzMatrix *matrix, int first, int end, CzTerminal
     fputc('\n', terminal->stream);
 }
 
+/* Number of columns side by side: beside the longest name on a line of 160 characters, beside names
+ * wrapped to a third of a narrower terminal. */
+static int columns_across(const CzMatrix *matrix, int width) {
+    enum { MAX_ACROSS = 10, EACH = 11 }; /* a margin and the space in front of it */
+    int name = 0;
+    for (int i = 0; i < matrix->n_row; i++)
+        name = (int)strlen(matrix->row[i]) > name ? (int)strlen(matrix->row[i]) : name;
+    if (width == 0)
+        return MAX_ACROSS;
+    const int n = (width - (name < width / 3 ? name : width / 3)) / EACH;
+    return n < 1 ? 1 : n < MAX_ACROSS ? n : MAX_ACROSS;
+}
+
 void cz_matrix_write_text(const CzEvaluation *evaluation, CzTerminal *terminal) {
-    enum { MAX_ACROSS = 10 }; /* that fit beside the longest name */
     CzMatrix matrix;
     terminal->failed |= !cz_matrix_build(&matrix, evaluation);
     if (!terminal->failed && cz_matrix_n_scenario(&matrix) > 1) {
         write_scenarios(&matrix, terminal);
         fputc('\n', terminal->stream);
-        for (int k = 0; k < matrix.n_column; k += MAX_ACROSS)
-            write_columns(&matrix, k,
-                          k + MAX_ACROSS < matrix.n_column ? k + MAX_ACROSS : matrix.n_column,
+        const int across = columns_across(&matrix, terminal->width);
+        for (int k = 0; k < matrix.n_column; k += across)
+            write_columns(&matrix, k, k + across < matrix.n_column ? k + across : matrix.n_column,
                           terminal);
         fputs(CZ_MATRIX_SIGNS "\n\n", terminal->stream);
     }

@@ -77,10 +77,11 @@ void cz_table_anchor(CzReportTable *table, const char *stem, int number);
 /* Frees a table that is not written. */
 void cz_table_free(CzReportTable *table);
 
-/* Zero-initialise it and set the first two members. */
+/* Zero-initialise it and set the first three members. */
 typedef struct CzTerminal {
     FILE *stream;
     bool colour; /* escape codes are allowed */
+    int width;   /* characters of a line, into which cells of a wider table are wrapped; 0: any */
     bool failed; /* no memory for a table: rows are missing, and the text reports it */
 } CzTerminal;
 

@@ -2,6 +2,7 @@
 #include "report/tables.h"
 
 #include "base/error.h"
+#include "report/options.h"
 
 CzStatus cz_report_write_table(const CzReport *report, bool colour, FILE *stream, CzError *error) {
     static void (*const writers[CZ_N_REPORT])(const CzReport *, CzTerminal *) = {
@@ -16,7 +17,8 @@ CzStatus cz_report_write_table(const CzReport *report, bool colour, FILE *stream
         [CZ_REPORT_BENCHMARK] = cz_benchmark_write_table,
         [CZ_REPORT_EXPLANATION] = cz_explanation_write_table,
         [CZ_REPORT_COMPARISON] = cz_comparison_write_table};
-    CzTerminal terminal = {stream, colour, false};
+    CzTerminal terminal = {
+        .stream = stream, .colour = colour, .width = cz_report_options_of(report)->text_width};
     writers[report->kind](report, &terminal);
     return terminal.failed ? cz_fail(error, CZ_STATUS_NO_MEMORY, "no memory for the whole table")
                            : CZ_OK;

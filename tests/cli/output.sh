@@ -34,11 +34,14 @@ if script -qec true /dev/null >/dev/null 2>&1; then
     check "a terminal shows progress" progress
     best() { grep -q 'eval [0-9]* | best margin +[0-9.]* % feasible | [0-9.]*/s | ETA [0-9]*:[0-9][0-9]' terminal.txt; }
     check "progress shows the best margin, its sign as in the table" best
+    narrow() { script -qec "stty cols 70; $C run two-trains.yaml" /dev/null >terminal.txt </dev/null; sed 's/\x1b\[[0-9;]*m//g; s/\r//' terminal.txt >lines.txt; grep -q '^interface ' lines.txt && ! sed -n '/^check /,/^[0-9]* checks/p' lines.txt | grep -q '^.\{71\}'; }
+    check "tables wrap cells to fit the terminal" narrow
 else
     reason="there is no command script; package bsdutils has it"
     ! command -v script >/dev/null 2>&1 || reason="script cannot open a terminal here; is /dev/pts mounted?"
     for sentence in "a terminal gets colours" "NO_COLOR is respected" "an empty NO_COLOR means nothing" \
         "a dumb terminal gets no escape codes" "a terminal shows progress" \
+        "tables wrap cells to fit the terminal" \
         "progress shows the best margin, its sign as in the table"; do
         skipped "$sentence" "$reason"
     done

@@ -114,6 +114,41 @@ static void several_scenarios_show_the_worst_lines_and_every_failure(void **stat
     free(text);
 }
 
+/* A criterion in twelve scenarios. */
+static void a_narrow_terminal_wraps_cells_and_divides_the_matrix(void **state) {
+    (void)state;
+    enum { WIDTH = 60, N = 12 };
+    StandIn s;
+    stand_in_fill(&s);
+    static const char *const names[N] = {"a", "b", "c", "d", "e", "f",
+                                         "g", "h", "i", "j", "k", "l"};
+    CzCheckResult check[N];
+    for (int i = 0; i < N; i++) {
+        check[i] = s.check[0];
+        check[i].name = "a criterion with a long name of several words, Züge";
+        check[i].scenario = names[i];
+    }
+    s.evaluation.check = check;
+    s.evaluation.n_check = N;
+    Text *text = text_begin();
+    CzReport report = stand_in_run(&s);
+    CzReportOptions options = cz_report_options_default();
+    options.text_width = WIDTH;
+    report.options = &options;
+    assert_int_equal(cz_report_write_table(&report, false, text->stream, NULL), CZ_OK);
+    char *written = text_end(text);
+    assert_has(written, "       1      2      3\n");
+    assert_has(written, "      10     11     12\n");
+    const char *line = strstr(written, "\ncriterion");
+    const char *sentence = strstr(written, "\nSmallest margins.");
+    while (line != NULL && line < sentence) {
+        const char *end = strchr(line + 1, '\n');
+        assert_true(end - line - 1 <= WIDTH + 1); /* a letter has two bytes */
+        line = end;
+    }
+    free(written);
+}
+
 static void checks_of_a_scenario_without_a_run_are_one_line(void **state) {
     (void)state;
     StandIn s;
@@ -335,6 +370,7 @@ int main(void) {
         cmocka_unit_test(without_colour_there_is_no_escape_code),
         cmocka_unit_test(names_cannot_send_escape_codes),
         cmocka_unit_test(several_scenarios_show_the_worst_lines_and_every_failure),
+        cmocka_unit_test(a_narrow_terminal_wraps_cells_and_divides_the_matrix),
         cmocka_unit_test(checks_of_a_scenario_without_a_run_are_one_line),
         cmocka_unit_test(a_rounded_value_does_not_hide_a_violated_limit),
         cmocka_unit_test(failed_and_incomplete_runs_are_named),

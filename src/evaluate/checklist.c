@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "evaluate/checklist_parts.h"
 #include "evaluate/design_rules.h"
+#include "evaluate/unfollowed.h"
 #include "evaluate/devices.h"
 #include "evaluate/not_applicable.h"
 #include "evaluate/not_covered.h"
@@ -291,6 +292,35 @@ static CzStatus choose_constraints(CzChecklistBuilder *builder) {
     return CZ_OK;
 }
 
+/* ---- contacts that the model does not follow ------------------------------------------------ */
+
+static bool judges_override(const CzChecklist *list, int scenario) {
+    for (int i = 0; i < list->n_check; i++)
+        if (list->check[i].scenario == scenario && list->check[i].missing == NULL &&
+            strcmp(list->check[i].metric.kind->name, "override") == 0)
+            return true;
+    return false;
+}
+
+/* Without a check of override, a run in which parts pass each other or slide must not pass by the
+ * other checks alone. Overload cases are judged for bottoming out only. */
+static CzStatus append_contacts(CzChecklistBuilder *builder) {
+    CzCheck check = {.name = "contact beyond the model",
+                     .source = "the model does not follow parts that pass each other or slide"};
+    CZ_TRY(cz_metric_parse("contact_unfollowed", &check.metric, builder->error));
+    check.scale = check.metric.kind->scale;
+    const int n_before = builder->list->n_check;
+    for (int s = 0; n_before > 0 && s < builder->n_scene; s++) {
+        check.scenario = s;
+        check.is_bare = !builder->scene[s].has_reserves;
+        if (!builder->scene[s].is_overload &&
+            cz_scene_is_judged_by(&builder->scene[s], check.name) &&
+            cz_contact_may_be_unfollowed(&builder->scene[s]) && !judges_override(builder->list, s))
+            CZ_TRY(cz_checklist_append(builder, &check));
+    }
+    return CZ_OK;
+}
+
 static CzChecklistBuilder builder_of(const CzProblem *problem, int n_scene, const CzScene *scene,
                                      CzArena *arena, CzChecklist *checklist, CzError *error) {
     return (CzChecklistBuilder){.problem = problem,
@@ -313,6 +343,7 @@ CzStatus cz_checklist_build(const CzProblem *problem, int n_scene, const CzScene
         CZ_TRY(append_own_limit(&builder, &input->checks.limits[i], has_rules));
     if (has_rules)
         CZ_TRY(cz_design_rules_append(&builder));
+    CZ_TRY(append_contacts(&builder));
     for (int i = 0; input->optimise.given && i < input->optimise.n_targets; i++)
         CZ_TRY(append_limit(&builder, &input->optimise.targets[i], NULL, true));
     if (input->optimise.given && input->optimise.n_variables > 0 && input->optimise.n_match == 0)

@@ -34,7 +34,7 @@ static int group_of(const char *metric) {
 }
 
 bool cz_climbing_judges(const CzMetricKind *kind) {
-    return group_of(kind->name) >= 0 || strcmp(kind->name, "run.override") == 0;
+    return group_of(kind->name) >= 0 || strcmp(kind->name, "override") == 0;
 }
 
 CzClimbing cz_climbing_of(const CzEvaluator *evaluator, int scenario) {

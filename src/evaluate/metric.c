@@ -96,6 +96,7 @@ typedef struct Sum {
     double when[2];        /* of the extreme [s] */
     char where[CZ_WHERE_SIZE], unknown_where[CZ_WHERE_SIZE];
     bool any_unknown;
+    const char *why; /* of the first place with an unknown value */
 } Sum;
 
 static void add_place(const CzPlace *place, void *data) {
@@ -103,8 +104,10 @@ static void add_place(const CzPlace *place, void *data) {
     const double value = cz_metric_at(sum->metric, place);
     if (isnan(value)) {
         const bool unknown = sum->metric->kind->may_be_unknown && place->must_declare;
-        if (unknown && !sum->any_unknown)
+        if (unknown && !sum->any_unknown) {
             memcpy(sum->unknown_where, place->name, sizeof sum->unknown_where);
+            sum->why = cz_metric_absence(sum->metric->kind, place);
+        }
         sum->any_unknown |= unknown;
         return;
     }
@@ -148,6 +151,6 @@ CzMetricValue cz_metric_value(const CzMetric *metric, const CzSubject *subject, 
     else if (sum.n_known == 0)
         value.known = CZ_DOES_NOT_APPLY;
     if (value.known != CZ_KNOWN)
-        value.why = metric->kind->absent;
+        value.why = sum.why != NULL ? sum.why : metric->kind->absent;
     return value;
 }

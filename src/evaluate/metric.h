@@ -85,6 +85,9 @@ double cz_metric_at(const CzMetric *metric, const CzPlace *place);
 /* Time at which the value was reached at a place [s]: begin and end, NaN when it is not stored. */
 void cz_metric_time_window(const CzMetric *metric, const CzPlace *place, double when[2]);
 
+/* Why it has no value at a place. */
+const char *cz_metric_absence(const CzMetricKind *kind, const CzPlace *place);
+
 /* Parameters of a metric by its name: the first one; returns how many. */
 int cz_metric_parameters(const char *metric, const CzMetricParameter **first);
 /* Reads the text between the brackets, empty for none; the others get their usual values. Status:

@@ -219,17 +219,21 @@ static double breaks_rules(const CzPlace *place) {
     return cz_problem_check_vehicles(place->problem, place->vehicles, NULL) != CZ_OK;
 }
 
+static bool lacks_stops(const CzPlace *place) {
+    for (int i = 0; i < place->run->n_vehicle; i++)
+        if (place->vehicles[place->scene->record[i]].model == CZ_MODEL_FULL &&
+            !place->run->vehicle[i].checks_override)
+            return true;
+    return false;
+}
+
 /* An override in a run always counts; the absence of one is known only when every full vehicle
  * declares its stops, and the model follows all contacts of the colliding ends. */
 static double climbed(const CzPlace *place) {
     if (place->run->beyond_validity)
         return 1;
-    for (int i = 0; i < place->run->n_vehicle; i++) {
-        const CzVehicle *record = &place->vehicles[place->scene->record[i]];
-        if (record->model == CZ_MODEL_FULL && !place->run->vehicle[i].checks_override)
-            return NAN;
-    }
-    return place->must_declare && !cz_contact_is_unfollowed(place) ? 0 : NAN;
+    return place->must_declare && !lacks_stops(place) && cz_contact_unfollowed(place) == NULL ? 0
+                                                                                              : NAN;
 }
 
 /* ---- pulses ---- */
@@ -392,6 +396,13 @@ void cz_metric_time_window(const CzMetric *metric, const CzPlace *place, double 
 
 const CzMetricKind *cz_metric_kind(int index) {
     return &kinds[index];
+}
+
+const char *cz_metric_absence(const CzMetricKind *kind, const CzPlace *place) {
+    const bool is_of_contact =
+        kind->value == judge_RUN_contact_unfollowed ||
+        (kind->value == judge_RUN_override && place->must_declare && !lacks_stops(place));
+    return is_of_contact ? cz_contact_unfollowed(place) : kind->absent;
 }
 
 /* ---- activation ---- */

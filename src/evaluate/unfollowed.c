@@ -32,20 +32,43 @@ static bool coupler_slides(const Facing *facing, double swing) {
            slope > (isnan(friction) ? STEEL_ON_STEEL : friction);
 }
 
-bool cz_contact_is_unfollowed(const CzPlace *place) {
+/* The two ends that meet; false where heights decide nothing: between rigid vehicles, and at a
+ * fixed one. */
+static bool find_ends(const CzScene *scene, const CzVehicle *behind, const CzVehicle *ahead,
+                      Facing facing[2]) {
+    facing[0] = (Facing){&behind->front, &ahead->rear, scene->rise};
+    facing[1] = (Facing){&ahead->rear, &behind->front, -scene->rise};
+    return (behind->model == CZ_MODEL_FULL || ahead->model == CZ_MODEL_FULL) &&
+           behind->model != CZ_MODEL_FIXED && ahead->model != CZ_MODEL_FIXED;
+}
+
+const char *cz_contact_unfollowed(const CzPlace *place) {
     const CzScene *scene = place->scene;
-    const CzVehicle *behind = &place->vehicles[scene->record[scene->colliding]];
-    const CzVehicle *ahead = &place->vehicles[scene->record[scene->colliding + 1]];
-    /* heights decide where a vehicle is full and none is fixed */
-    if ((behind->model != CZ_MODEL_FULL && ahead->model != CZ_MODEL_FULL) ||
-        behind->model == CZ_MODEL_FIXED || ahead->model == CZ_MODEL_FIXED)
-        return false;
-    const Facing facing[2] = {{&behind->front, &ahead->rear, scene->rise},
-                              {&ahead->rear, &behind->front, -scene->rise}};
+    Facing facing[2];
+    if (!find_ends(scene, &place->vehicles[scene->record[scene->colliding]],
+                   &place->vehicles[scene->record[scene->colliding + 1]], facing))
+        return NULL;
     const double *swing = place->run->interface[scene->colliding].swing;
+    for (int side = 0; side < 2; side++) {
+        if (face_passes(&facing[side]))
+            return "an anti-climber passes over or under the other end";
+        if (may_pass_its_kind(&facing[side]))
+            return "couplers or side buffers may pass each other, so far are they apart in height";
+        if (coupler_slides(&facing[side], swing[1 - side]))
+            return "a coupler pushes a bare end at an angle at which it would slide";
+    }
+    return NULL;
+}
+
+bool cz_contact_may_be_unfollowed(const CzScene *scene) {
+    Facing facing[2];
+    if (!find_ends(scene, scene->vehicle[scene->colliding], scene->vehicle[scene->colliding + 1],
+                   facing))
+        return false;
     for (int side = 0; side < 2; side++)
         if (face_passes(&facing[side]) || may_pass_its_kind(&facing[side]) ||
-            coupler_slides(&facing[side], swing[1 - side]))
+            cz_part_strikes(facing[side].end, CZ_PART_COUPLER, facing[side].opposite,
+                            facing[side].rise))
             return true;
     return false;
 }

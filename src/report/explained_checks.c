@@ -116,12 +116,14 @@ static void write_changes(const CzExplanation *explanation, const CzExplainedChe
                           CzTerminal *terminal) {
     const CzTriedChange *change = explained->change;
     CzReportTable table;
-    if (explanation->n_tried == 0)
+    const bool has_no_margin =
+        explained->check.is_flag && cz_verdict_passes(explained->check.verdict);
+    if (explanation->n_tried == 0 || (explained->n_change == 0 && has_no_margin))
         return;
     if (explained->n_change == 0) {
-        cz_terminal_print(terminal, CZ_STYLE_PLAIN,
-                          "No change of a single one of %d numbers raises this margin.\n",
-                          explanation->n_tried);
+        cz_terminal_print(terminal, CZ_STYLE_PLAIN, "No change of a single one of %d numbers %s.\n",
+                          explanation->n_tried,
+                          explained->check.is_flag ? "makes it pass" : "raises this margin");
         return;
     }
     const bool is_clean = change->passes && change->n_broken == 0;

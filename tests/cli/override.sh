@@ -62,8 +62,16 @@ trains:
   - {name: W, role: obstacle, vehicles: [{name: W1, use: wagon-80t}]}
 scenarios: [{name: low, trains: [A, W], speed_km_h: 15}]
 END
-    "$C" check over.yaml -q >out.txt; grep '^override' out.txt | grep -q 'NOT CHECKED .*pass or may pass each other' &&
+    "$C" check over.yaml -q >out.txt; grep '^override' out.txt | grep -q 'NOT CHECKED .*an anti-climber passes over or under the other end$' &&
         { "$C" check over.yaml -q --set parts.emu-crash-box.height_m=1.05 >out.txt; grep '^override' out.txt | grep -q 'pass$'; }
 }
 check "override is not checked where an anti-climber passes the other end" passes
+unruled() { # the same without design rules
+    cp over.yaml bare.yaml && echo 'checks: {design_rules: false, limits: [{name: force, metric: interfaces.peak_force_kN, max: 99999}]}' >>bare.yaml
+    exits 1 "$C" check bare.yaml -q && grep -q '^contact beyond the model .*NOT CHECKED .*passes over or under' out.txt && says out.txt 'Verdict: NOT CHECKED' &&
+        exits 0 "$C" check bare.yaml -q --set parts.emu-crash-box.height_m=1.05 && says out.txt '2 checks: 2 pass'
+}
+check "a contact that the model does not follow is not checked without design rules either" unruled
+named() { exits 0 "$C" explain over.yaml --check override -q --set parts.emu-crash-box.height_m=1.05 && says out.txt 'Smallest single change that violates the limit' && ! grep -q '^No change' out.txt; }
+check "explain --check override explains the override" named
 finish

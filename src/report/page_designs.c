@@ -244,7 +244,7 @@ void cz_page_write_sensitivities(CzMarkup *markup, const CzReport *report) {
         "those of the most critical constraints, computed as in the search.</p>");
     CzReportTable table;
     cz_table_begin(&table, "variable;>increment");
-    table.class_name = "sensitivities";
+    table.class_name = "sensitivities cards";
     add_head(&table, cz_evaluator_maximises_margin(evaluator)
                          ? "smallest margin"
                          : cz_evaluator_objective_name(evaluator));

@@ -159,7 +159,7 @@ static void write_designs(const CzPareto *pareto, CzMarkup *markup) {
         snprintf(head, sizeof head, ">%s", cz_evaluator_variable(pareto->evaluator, i)->name);
         cz_table_head(&table, head);
     }
-    table.class_name = "points";
+    table.class_name = "points cards";
     for (int k = 0; k < pareto->n_point; k++) {
         const CzParetoPoint *point = &pareto->point[k];
         if (point->x == NULL)
@@ -193,7 +193,7 @@ CzStatus cz_page_write_pareto(const CzPareto *pareto, const CzProblem *problem, 
     draw(pareto, true, &markup);
     cz_markup_write(&markup, "</div></section>\n<section id='points'>\n<h2>Points</h2>\n");
     cz_pareto_begin_points(&table, pareto);
-    table.class_name = "points";
+    table.class_name = "points cards";
     cz_table_write_page(&table, &markup);
     cz_markup_write(&markup, "</section>\n<section id='designs'>\n<h2>Designs</h2>\n");
     write_designs(pareto, &markup);

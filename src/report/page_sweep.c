@@ -173,7 +173,7 @@ CzStatus cz_page_write_sweep(const CzSweep *sweep, FILE *stream, CzError *error)
     if (sweep->n_axis > 1)
         cz_markup_write(&markup, "<details><summary>Every point of the map</summary>");
     cz_sweep_begin_points(&table, sweep, true);
-    table.class_name = "points";
+    table.class_name = "points cards";
     cz_table_write_page(&table, &markup);
     cz_markup_write(&markup, sweep->n_axis > 1 ? "</details></section>\n" : "</section>\n");
     cz_page_write_foot(&markup);

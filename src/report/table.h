@@ -41,8 +41,9 @@ typedef struct CzReportCell {
 enum { CZ_MAX_COLUMNS = 24 };
 
 typedef struct CzReportTable {
-    const char *class_name; /* on a page; NULL for none. A table of class `cards` shows on a narrow
-                               page each row as a paragraph with the heads in front of its cells */
+    const char *class_name; /* on a page; NULL for none. A table of class `cards`, or of more than
+                               four columns and no class, shows on a narrow page each row as a
+                               paragraph with the heads in front of its cells */
     int n_column;
     struct {
         const char *head; /* NULL: the column is left out */

@@ -73,13 +73,29 @@ static void write_cell(CzMarkup *markup, const CzReportCell *cell, bool is_numbe
     cz_markup_write(markup, "</td>");
 }
 
+/* Whether rows become paragraphs on a narrow page: tables of class `cards`, and those without a
+ * class that do not fit there. */
+static bool shows_cards(const CzReportTable *table) {
+    enum { FEW = 4 }; /* columns that can be read side by side on 400 pixels */
+    int n_shown = 0;
+    for (int k = 0; k < table->n_column; k++)
+        n_shown += table->column[k].head != NULL;
+    return table->class_name != NULL ? strstr(table->class_name, "cards") != NULL : n_shown > FEW;
+}
+
+/* The first cell of a paragraph is its title, without a head unless it is a number. */
+static bool has_head_in_cards(const CzReportTable *table, int column) {
+    return column > 0 || table->column[column].is_number;
+}
+
 void cz_table_write_page(CzReportTable *table, CzMarkup *markup) {
-    const bool is_cards = table->class_name != NULL && strstr(table->class_name, "cards") != NULL;
+    const bool is_cards = shows_cards(table);
+    const char *class_name = table->class_name != NULL || !is_cards ? table->class_name : "cards";
     markup->failed |= table->arena.out_of_memory;
     cz_markup_write(markup,
-                    table->class_name != NULL ? "<div class='wide'><table class='%s'><tr>"
-                                              : "<div class='wide'><table><tr>",
-                    table->class_name);
+                    class_name != NULL ? "<div class='wide'><table class='%s'><tr>"
+                                       : "<div class='wide'><table><tr>",
+                    class_name);
     for (int k = 0; k < table->n_column; k++)
         if (table->column[k].head != NULL)
             write_head(markup, table->column[k].head, table->column[k].is_number);
@@ -89,7 +105,7 @@ void cz_table_write_page(CzReportTable *table, CzMarkup *markup) {
         for (int k = 0; k < table->n_column; k++)
             if (table->column[k].head != NULL)
                 write_cell(markup, &table->cell[i + k], table->column[k].is_number,
-                           is_cards && k > 0 ? table->column[k].head : NULL);
+                           is_cards && has_head_in_cards(table, k) ? table->column[k].head : NULL);
         cz_markup_write(markup, "</tr>\n");
     }
     cz_markup_write(markup, "</table></div>\n");

@@ -296,8 +296,23 @@ async function lookAtPage(browser, file) {
   await check(`${name}: an XML parser accepts it`, () => isWellFormed(page, file));
   await check(`${name}: labels do not overlap`, () => labelsKeepApart(page));
   await check(`${name}: it fits 1280 pixels`, () => fits(browser, file, 1280, `${name}-1280.png`, 'light'));
+  await check(`${name}: at 400 pixels tables of many columns are within the page`, () => tablesFit(browser, file, 400));
   await check(`${name}: it fits 400 pixels, in the dark`, () => fits(browser, file, 400, `${name}-400.png`, 'dark'));
   await page.context().close();
+}
+
+/* Cells of tables with more than four columns that are outside a narrow page. */
+async function tablesFit(browser, file, width) {
+  const page = await open(browser, file, {viewport: {width, height: 900}, javaScriptEnabled: true});
+  const wide = await page.evaluate(width => {
+    for (const table of document.querySelectorAll('.wide > table'))
+      if (table.querySelectorAll('th').length > 4)
+        for (const cell of table.querySelectorAll('td'))
+          if (cell.getBoundingClientRect().right > width) return `"${cell.textContent}" ends beyond ${width}`;
+    return '';
+  }, width);
+  await page.context().close();
+  return wide;
 }
 
 async function look(browser, folder) {

@@ -6,10 +6,15 @@
  * are those of the file. Curves are judged as samples are: the bare physical limits hold, unless
  * the file says otherwise, and overload cases are left out.
  *
- * Tried at each width are the edges, rising, falling and alternating curves, then quasi-random
- * curves; where there is scatter, in each sample of it one of these and both edges. In the widest
- * corridor that passes an adversary begins with the two curves of the smallest margins. That no
- * other curve fails is not proved.
+ * Tried at each width are the edges, rising, falling and alternating curves. In the widest corridor
+ * that passes quasi-random curves follow; where there is scatter, in each sample of it one of these
+ * and both edges. Those that fail are tried at each width too, which narrows the corridor. Then an
+ * adversary begins with the two curves of the smallest margins. That no other curve fails is not
+ * proved.
+ *
+ * The runs of the search end as soon as their results are final, on the track of a search. Both
+ * edges, the curves of the smallest margins within them, and the failing curves just beyond them
+ * are run in full at the end.
  */
 #ifndef CRUSHZONE_CORRIDOR_H
 #define CRUSHZONE_CORRIDOR_H
@@ -45,6 +50,7 @@ typedef struct CzTriedCurve {
     int number;                    /* of a quasi-random curve or of an adversary's, from 1 */
     int sample;                    /* of the scatter, from 0; -1: the values of the file */
     double factor[CZ_MAX_FACTORS]; /* on the forces of the pieces, then on the peak */
+    bool is_whole; /* by a run in full; else one that ended as soon as its results were final */
     CzSampleState state;
     CzVerdict verdict; /* of its checks; FAIL unless done */
     double margin;     /* of the check; NaN when it has none */

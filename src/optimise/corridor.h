@@ -51,8 +51,9 @@ CZ_MUST_CHECK CzStatus cz_corridor_begin(CzCorridor *corridor, CzError *error);
 
 /* ---- curves (corridor_curves.c) ---- */
 
-/* Runs and judges n curves, all in samples or none, in several threads; those that an interruption
- * left out are CZ_SAMPLE_NOT_RUN. Statuses: CZ_OK, CZ_STATUS_INTERRUPTED, CZ_STATUS_NO_MEMORY. */
+/* Runs and judges n curves, all in samples or none and in full or none, in several threads; those
+ * that an interruption left out are CZ_SAMPLE_NOT_RUN. Statuses: CZ_OK, CZ_STATUS_INTERRUPTED,
+ * CZ_STATUS_NO_MEMORY. */
 CZ_MUST_CHECK CzStatus cz_corridor_run(CzCorridor *corridor, int n, CzTriedCurve *curve,
                                        CzError *error);
 /* The same with at most CZ_CURVES_AT_ONCE curves in this thread. */

@@ -87,10 +87,15 @@ static CzStatus list_checks(CzCorridor *corridor, int n, const CzCheckResult *re
 
 static CzStatus run_bench(CzCorridor *corridor, const CzCaseBench *bench, int n,
                           CzTriedCurve *curve, CzError *error) {
+    const CzManner brief = {.step_factor = 1,
+                            .integrator = CZ_INTEGRATOR_ZHAI,
+                            .track = CZ_TRACK_USE_SEARCH,
+                            .brief = true};
     CzEvaluation evaluation = {0};
     cz_evaluator_set_stop(bench->evaluator, corridor->parts->options.stop);
-    CzStatus status = cz_evaluator_repeat(bench->evaluator, 1, &bench->evaluator->manner, NULL,
-                                          &evaluation, error);
+    CzStatus status = cz_evaluator_repeat(bench->evaluator, 1,
+                                          curve->is_whole ? &bench->evaluator->manner : &brief,
+                                          NULL, &evaluation, error);
     CzCheckResult *own = malloc(((size_t)evaluation.n_check + 1) * sizeof *own);
     if (own == NULL && status == CZ_OK)
         status = cz_no_memory(error, "the results of a curve");

@@ -2,9 +2,13 @@
  * one, then the upper one.
  *
  * A corridor passes when no curve that failed so far lies in it, and all curves that are tried in
- * it pass. The adversary tries the widest one alone. A failing curve that it finds, or one found at
- * a larger width, can lie in a corridor that passed before: that one is then refused, and the
- * search begins again with what is known.
+ * it pass. Quasi-random curves, samples and the adversary try the widest one alone; what fails
+ * there is tried at every width from then on, because it would fail at many. A failing curve that
+ * they find, or one found at a larger width, can lie in a corridor that passed before: that one is
+ * then refused, and the search begins again with what is known.
+ *
+ * The runs are brief. What decides is run in full at the end; a curve that then has another verdict
+ * keeps it, and the search begins again.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -14,18 +18,19 @@
 #include "optimise/corridor.h"
 
 enum {
-    MAX_PASSED = 64,
     N_SHAPES = 8,
+    MAX_CRITICAL = 8, /* curves that failed in a widest corridor and are tried at every width */
     N_CHALLENGED = 2, /* curves from which the adversary begins */
+    N_CONFIRMED = 6,  /* of the smallest margins in the corridor, in full (ours) */
     N_SEARCHED = 3    /* lower and upper edge together, then each */
 };
 
 typedef struct Search {
     CzCorridor *corridor;
     int most_steps;
-    int n_passed;
-    CzCorridorBox passed[MAX_PASSED]; /* corridors whose curves passed */
-    int n_done;                       /* corridors that were tried, for the progress */
+    int n_critical;
+    CzTriedCurve critical[MAX_CRITICAL]; /* by shape, number and sample, at any width */
+    int n_done;                          /* corridors that were tried, for the progress */
 } Search;
 
 /* ---- curves that were tried ------------------------------------------------------------------ */
@@ -109,14 +114,31 @@ static CzTriedCurve make_random(const CzCorridor *corridor, const CzCorridorBox 
     return curve;
 }
 
-/* Runs curves and keeps them; *passes becomes false when one fails. */
+/* The same curve among those that were tried; -1 when there is none. */
+static int find_known(const CzCorridor *corridor, const CzTriedCurve *curve) {
+    for (int i = 0; i < corridor->n_curve; i++)
+        if (corridor->curve[i].sample == curve->sample &&
+            memcmp(corridor->curve[i].factor, curve->factor, sizeof curve->factor) == 0)
+            return i;
+    return -1;
+}
+
+/* Runs those curves that are new, and keeps them; *passes becomes false when one fails. */
 static CzStatus run_and_keep(CzCorridor *corridor, int n, CzTriedCurve *curve, bool *passes,
                              CzError *error) {
-    CzStatus status = cz_corridor_run(corridor, n, curve, error);
+    int n_new = 0;
+    for (int i = 0; i < n; i++) {
+        const int known = find_known(corridor, &curve[i]);
+        if (known >= 0)
+            *passes &= cz_curve_passes(&corridor->curve[known]);
+        else
+            curve[n_new++] = curve[i];
+    }
+    CzStatus status = cz_corridor_run(corridor, n_new, curve, error);
     CZ_TRY(status == CZ_STATUS_INTERRUPTED ? CZ_OK : status);
-    for (int i = 0; i < n; i++)
+    for (int i = 0; i < n_new; i++)
         *passes &= cz_curve_passes(&curve[i]);
-    CZ_TRY(cz_corridor_keep(corridor, n, curve, error));
+    CZ_TRY(cz_corridor_keep(corridor, n_new, curve, error));
     return status;
 }
 
@@ -135,10 +157,60 @@ static CzStatus try_shapes(CzCorridor *corridor, const CzCorridorBox *box, bool 
     return run_and_keep(corridor, n, curve, passes, error);
 }
 
+/* ---- curves that are tried at every width once they failed ----------------------------------- */
+
+static bool is_critical(const Search *search, const CzTriedCurve *curve) {
+    for (int i = 0; i < search->n_critical; i++)
+        if (search->critical[i].shape == curve->shape &&
+            search->critical[i].number == curve->number &&
+            search->critical[i].sample == curve->sample)
+            return true;
+    return false;
+}
+
+/* Whether one failing curve is worse than another: a failed run is worse than any margin. */
+static bool is_worse(const CzTriedCurve *one, const CzTriedCurve *other) {
+    return isnan(one->margin) ? !isnan(other->margin) : one->margin < other->margin;
+}
+
+/* Notes the curves from the first one on that failed, the worst ones. */
+static void note_critical(Search *search, int first) {
+    const CzCorridor *corridor = search->corridor;
+    while (search->n_critical < MAX_CRITICAL) {
+        const CzTriedCurve *worst = NULL;
+        for (int i = first; i < corridor->n_curve; i++) {
+            const CzTriedCurve *curve = &corridor->curve[i];
+            if (!cz_curve_passes(curve) && !is_critical(search, curve) &&
+                (worst == NULL || is_worse(curve, worst)))
+                worst = curve;
+        }
+        if (worst == NULL)
+            return;
+        search->critical[search->n_critical++] = *worst;
+    }
+}
+
+/* Critical curves between the edges of a corridor. */
+static CzStatus try_critical(Search *search, const CzCorridorBox *box, bool *passes,
+                             CzError *error) {
+    CzTriedCurve curve[MAX_CRITICAL];
+    for (int i = 0; i < search->n_critical; i++) {
+        const CzTriedCurve *critical = &search->critical[i];
+        curve[i] = critical->shape == CZ_CURVE_RANDOM
+                       ? make_random(search->corridor, box, critical->number - 1)
+                       : make_shape(search->corridor, box, critical->shape, critical->sample);
+    }
+    return run_and_keep(search->corridor, search->n_critical, curve, passes, error);
+}
+
+/* ---- the widest corridor --------------------------------------------------------------------- */
+
 /* Quasi-random curves; in every sample of the scatter one of them and both edges. */
-static CzStatus try_random(CzCorridor *corridor, const CzCorridorBox *box, bool *passes,
-                           CzError *error) {
+static CzStatus try_random(Search *search, const CzCorridorBox *box, CzError *error) {
+    CzCorridor *corridor = search->corridor;
     const int per_sample = corridor->n_draw > 0 ? 3 : 1, n = corridor->n_random * per_sample;
+    const int first = corridor->n_curve;
+    bool passes = true;
     CzTriedCurve *curve = malloc((size_t)n * sizeof *curve);
     if (curve == NULL)
         return cz_no_memory(error, "the curves of a corridor");
@@ -148,8 +220,9 @@ static CzStatus try_random(CzCorridor *corridor, const CzCorridorBox *box, bool 
             curve[k * per_sample + i] =
                 make_shape(corridor, box, i == 1 ? CZ_CURVE_LOWER : CZ_CURVE_UPPER, k);
     }
-    const CzStatus status = run_and_keep(corridor, n, curve, passes, error);
+    const CzStatus status = run_and_keep(corridor, n, curve, &passes, error);
     free(curve);
+    note_critical(search, first);
     return status;
 }
 
@@ -174,11 +247,40 @@ static CzStatus challenge(CzCorridor *corridor, const CzCorridorBox *box, CzErro
     return cz_corridor_challenge(corridor, box, n, start, error);
 }
 
-static bool has_passed(const Search *search, const CzCorridorBox *box) {
-    for (int i = 0; i < search->n_passed; i++)
-        if (memcmp(&search->passed[i], box, sizeof *box) == 0)
-            return true;
-    return false;
+/* Runs a curve in full, once; *is_refuted becomes true when its verdict is another one then. */
+static CzStatus run_whole(CzCorridor *corridor, int at, bool *is_refuted, CzError *error) {
+    CzTriedCurve whole = corridor->curve[at];
+    if (whole.is_whole)
+        return CZ_OK;
+    whole.is_whole = true;
+    whole.message[0] = '\0';
+    CZ_TRY(cz_corridor_run(corridor, 1, &whole, error));
+    *is_refuted |= cz_curve_passes(&whole) != cz_curve_passes(&corridor->curve[at]);
+    corridor->curve[at] = whole;
+    return CZ_OK;
+}
+
+/* Runs in full what decides: the curves of the smallest margins in a corridor, and those that fail
+ * just beyond its edges. */
+static CzStatus confirm(CzCorridor *corridor, const CzCorridorBox *box, bool *is_refuted,
+                        CzError *error) {
+    for (int k = 0; k < N_CONFIRMED && find_failing(corridor, box) < 0; k++) {
+        int worst = -1;
+        for (int i = 0; i < corridor->n_curve; i++)
+            if (!corridor->curve[i].is_whole && is_inside(corridor, box, &corridor->curve[i]) &&
+                (worst < 0 || is_worse(&corridor->curve[i], &corridor->curve[worst])))
+                worst = i;
+        if (worst >= 0)
+            CZ_TRY(run_whole(corridor, worst, is_refuted, error));
+    }
+    for (int edge = 0; edge < 2; edge++) {
+        CzCorridorBox wider = *box;
+        wider.steps[edge]++;
+        const int failing = find_failing(corridor, &wider);
+        if (failing >= 0)
+            CZ_TRY(run_whole(corridor, failing, is_refuted, error));
+    }
+    return CZ_OK;
 }
 
 /* Whether a corridor passes; it ends at the first kind of curves of which one fails. */
@@ -187,13 +289,11 @@ static CzStatus try_box(Search *search, const CzCorridorBox *box, bool *passes, 
     const CzCorridorOptions *options = &corridor->parts->options;
     const int usual = N_SEARCHED * (int)ceil(log2(search->most_steps + 1));
     *passes = find_failing(corridor, box) < 0;
-    if (!*passes || has_passed(search, box))
+    if (!*passes)
         return CZ_OK;
-    CZ_TRY(try_shapes(corridor, box, passes, error));
+    CZ_TRY(try_critical(search, box, passes, error));
     if (*passes)
-        CZ_TRY(try_random(corridor, box, passes, error));
-    if (*passes && search->n_passed < MAX_PASSED)
-        search->passed[search->n_passed++] = *box;
+        CZ_TRY(try_shapes(corridor, box, passes, error));
     search->n_done++;
     if (options->progress != NULL)
         options->progress(search->n_done, usual > search->n_done ? usual : search->n_done + 1,
@@ -236,16 +336,27 @@ static CzStatus widen(Search *search, bool moves_lower, bool moves_upper, CzCorr
     return CZ_OK;
 }
 
-/* Widens both edges, and challenges what was found; again as long as a curve in it fails. */
+/* Widens both edges, and tries all other curves in what was found; again as long as a curve in it
+ * fails, or a run in full refutes a verdict. */
 static CzStatus search_edges(Search *search, CzCorridorBox *box, CzError *error) {
+    const CzCorridorBox nominal = {{0, 0}};
+    CzCorridor *corridor = search->corridor;
+    bool is_refuted;
     do {
         *box = (CzCorridorBox){{0, 0}};
+        is_refuted = false;
         CZ_TRY(widen(search, true, true, box, error));
         CZ_TRY(widen(search, true, false, box, error));
         CZ_TRY(widen(search, false, true, box, error));
-        if (box->steps[0] + box->steps[1] > 0 && find_failing(search->corridor, box) < 0)
-            CZ_TRY(challenge(search->corridor, box, error));
-    } while (find_failing(search->corridor, box) >= 0);
+        const bool is_wide = box->steps[0] + box->steps[1] > 0;
+        if (is_wide && find_failing(corridor, box) < 0)
+            CZ_TRY(try_random(search, box, error));
+        if (is_wide && find_failing(corridor, box) < 0)
+            CZ_TRY(challenge(corridor, box, error));
+        if (find_failing(corridor, box) < 0)
+            CZ_TRY(confirm(corridor, box, &is_refuted, error));
+        corridor->exists = find_failing(corridor, &nominal) < 0;
+    } while (corridor->exists && (is_refuted || find_failing(corridor, box) >= 0));
     return CZ_OK;
 }
 
@@ -254,6 +365,7 @@ static CzStatus try_nominal(CzCorridor *corridor, CzError *error) {
     const CzCorridorBox box = {{0, 0}};
     const int n = corridor->n_draw > 0 ? corridor->n_random : 0;
     CzTriedCurve first = make_shape(corridor, &box, CZ_CURVE_NOMINAL, -1);
+    first.is_whole = true;
     bool passes = true;
     CZ_TRY(run_and_keep(corridor, 1, &first, &passes, error));
     if (passes && n > 0) {

@@ -85,6 +85,7 @@ typedef struct Confirmation {
     const CzSubspace *subspace;
     CzOutcome *outcome;
     double *x; /* scratch (n_variable) */
+    bool is_interrupted;
 } Confirmation;
 
 /* Evaluates a design in full and stores it as the best one when it is preferred; returns whether it
@@ -136,8 +137,10 @@ static CzStatus confirm_best(const Confirmation *confirmation, CzError *error) {
                        outcome->best);
     CZ_TRY(cz_evaluate(confirmation->evaluator, 1, outcome->best, true, &outcome->best_evaluation,
                        error));
+    if (confirmation->is_interrupted && record >= 0 && isnan(outcome->best_evaluation.objective))
+        outcome->best_evaluation.objective = search->record[record].objective;
     if (record < 0 || search->record[record].violation > 0 ||
-        outcome->best_evaluation.violation <= 0)
+        outcome->best_evaluation.violation <= 0 || confirmation->is_interrupted)
         return CZ_OK;
     Passed *list = calloc((size_t)search->n_record + 1, sizeof *list);
     const long n = list != NULL ? rank_passed(search, record, list) : -1;
@@ -147,15 +150,28 @@ static CzStatus confirm_best(const Confirmation *confirmation, CzError *error) {
     return status;
 }
 
+/* Leaves scenarios out by the margins of the best design in an interrupted search. */
+static CzStatus leave_out(CzEvaluator *evaluator, const CzSearch *search, CzError *error) {
+    const long record = cz_combinations_record(search);
+    return cz_outcome_leave_out(evaluator, cz_search_n_detail(search),
+                                record >= 0 ? cz_search_detail(search, record) : NULL, error);
+}
+
+static bool is_interrupted(const CzCombinations *combinations) {
+    return combinations->subspace[combinations->n - 1].search.status == CZ_STATUS_INTERRUPTED;
+}
+
 /* Evaluates start and best design again, from the file's numbers; the best one with all channels
  * recorded. */
-static CzStatus confirm(CzEvaluator *evaluator, const CzSubspace *subspace, CzOutcome *outcome,
-                        CzError *error) {
-    const Confirmation confirmation = {
-        .evaluator = evaluator,
-        .subspace = subspace,
-        .outcome = outcome,
-        .x = cz_outcome_numbers(outcome, (size_t)outcome->n_variable)};
+static CzStatus confirm(CzEvaluator *evaluator, const CzCombinations *combinations,
+                        CzOutcome *outcome, CzError *error) {
+    const CzSubspace *subspace = &combinations->subspace[combinations->chosen];
+    const Confirmation confirmation = {.evaluator = evaluator,
+                                       .subspace = subspace,
+                                       .outcome = outcome,
+                                       .x =
+                                           cz_outcome_numbers(outcome, (size_t)outcome->n_variable),
+                                       .is_interrupted = is_interrupted(combinations)};
     if (confirmation.x == NULL)
         return cz_no_memory(error, "the outcome");
     CZ_TRY(cz_outcome_evaluate_start(evaluator, outcome, error));
@@ -210,13 +226,12 @@ static void write_why(const CzCombinations *combinations, long limit, CzOutcome 
 }
 
 static void conclude(const CzCombinations *combinations, long limit, CzOutcome *outcome) {
-    const CzSearch *last = &combinations->subspace[combinations->n - 1].search;
     const bool feasible = outcome->best_evaluation.status == CZ_OK &&
                           outcome->best_evaluation.violation <= 0 &&
                           isfinite(outcome->best_evaluation.objective);
-    outcome->status = last->status == CZ_STATUS_INTERRUPTED ? CZ_OUTCOME_INTERRUPTED
-                      : feasible                            ? CZ_OUTCOME_FEASIBLE
-                                                            : CZ_OUTCOME_INFEASIBLE;
+    outcome->status = is_interrupted(combinations) ? CZ_OUTCOME_INTERRUPTED
+                      : feasible                   ? CZ_OUTCOME_FEASIBLE
+                                                   : CZ_OUTCOME_INFEASIBLE;
     write_why(combinations, limit, outcome);
 }
 
@@ -253,7 +268,9 @@ static CzStatus fill_outcome(CzEvaluator *evaluator, CzCombinations *combination
     if (options->start != NULL)
         memcpy(outcome->start, options->start, (size_t)outcome->n_variable * sizeof(double));
     CZ_TRY(cz_outcome_take_history(outcome, combinations, error));
-    CZ_TRY(confirm(evaluator, chosen, outcome, error));
+    if (is_interrupted(combinations))
+        CZ_TRY(leave_out(evaluator, &chosen->search, error));
+    CZ_TRY(confirm(evaluator, combinations, outcome, error));
     if (cz_evaluator_is_fit(evaluator))
         CZ_TRY(
             cz_alternatives_find(chosen, cz_combinations_record(&chosen->search), outcome, error));

@@ -4,6 +4,8 @@
 #include "evaluate/deciding_run.h"
 #include "evaluate/listed.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -143,6 +145,52 @@ CzStatus cz_outcome_verify(CzEvaluator *evaluator, const CzOptimiseOptions *opti
     snprintf(outcome->why_stopped, sizeof outcome->why_stopped,
              "interrupted during the verification");
     return CZ_OK;
+}
+
+/* ---- after an interruption ---- */
+
+enum {
+    MAX_FINISHED = 8, /* scenarios that are all run after an interruption */
+    N_FINISHED = 2    /* of more scenarios */
+};
+
+/* Largest violations of the scenarios, below all others where none is known, and below these where
+ * the scenario is not run. */
+static void fill_violations(const CzEvaluator *evaluator, int n_detail, const double *detail,
+                            double *violation) {
+    for (int s = 0; s < cz_evaluator_n_scenario(evaluator); s++)
+        violation[s] = cz_evaluator_has_run_of(evaluator, s) ? -DBL_MAX : -INFINITY;
+    for (int j = 0, at = 0; detail != NULL && j < cz_evaluator_n_constraint(evaluator); j++) {
+        const int s = cz_evaluator_constraint_scenario(evaluator, j);
+        for (int k = 0; k < cz_evaluator_n_detail_of(evaluator, j) && at < n_detail; k++, at++)
+            if (s >= 0 && detail[at] > violation[s]) /* not NaN */
+                violation[s] = detail[at];
+    }
+}
+
+CzStatus cz_outcome_leave_out(CzEvaluator *evaluator, int n_detail, const double *detail,
+                              CzError *error) {
+    const int n = cz_evaluator_n_scenario(evaluator);
+    const char *name[N_FINISHED];
+    int n_run = 0;
+    for (int s = 0; s < n; s++)
+        n_run += cz_evaluator_has_run_of(evaluator, s);
+    if (n_run <= MAX_FINISHED || !cz_evaluator_can_select(evaluator))
+        return CZ_OK;
+    double *violation = malloc((size_t)n * sizeof *violation);
+    if (violation == NULL)
+        return cz_no_memory(error, "the outcome");
+    fill_violations(evaluator, n_detail, detail, violation);
+    for (int k = 0; k < N_FINISHED; k++) {
+        int worst = 0;
+        for (int s = 1; s < n; s++)
+            if (violation[s] > violation[worst])
+                worst = s;
+        name[k] = cz_evaluator_scenario_name(evaluator, worst);
+        violation[worst] = -INFINITY;
+    }
+    free(violation);
+    return cz_evaluator_set_scenarios(evaluator, N_FINISHED, name, error);
 }
 
 void cz_outcome_cut_short(CzOutcome *outcome, const char *part) {

@@ -422,6 +422,8 @@ static CzStatus fill_outcome(Robust *robust, CzError *error) {
     memcpy(outcome->trial_x, robust->trial_x, n_trial * n * sizeof *outcome->trial_x);
     outcome->width = robust->options.width;
     cz_outcome_mark_bounds(result->evaluator, outcome);
+    if (is_stopped(robust))
+        CZ_TRY(cz_outcome_leave_out(result->evaluator, 0, NULL, error));
     CZ_TRY(cz_outcome_evaluate_start(result->evaluator, outcome, error));
     CZ_TRY(
         cz_evaluate(result->evaluator, 1, outcome->best, true, &outcome->best_evaluation, error));

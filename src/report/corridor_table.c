@@ -72,9 +72,9 @@ void cz_corridor_tried_sentence(const CzCorridor *corridor, char text[CZ_CORRIDO
         snprintf(scatter, sizeof scatter, ", these and the edges in %d samples of the scatter",
                  corridor->n_random);
     snprintf(text, CZ_CORRIDOR_SENTENCE,
-             "%d curves of %d piece%s%s%s were tried, and the %d within the corridor pass: edges, "
-             "rising, falling and alternating curves, at each width %d quasi-random ones (seed "
-             "%ld)%s, and in the corridor those of an adversary; widths in steps of %s %%",
+             "%d curves of %d piece%s%s%s were tried, and the %d within the corridor pass: at each "
+             "width edges, rising, falling and alternating curves; in the widest corridor %d "
+             "quasi-random ones (seed %ld)%s, and those of an adversary; widths in steps of %s %%",
              corridor->n_curve, corridor->n_piece, corridor->n_piece > 1 ? "s" : "",
              corridor->peak_word != NULL ? " and a " : "",
              corridor->peak_word != NULL ? corridor->peak_word : "", corridor->n_inside,
@@ -163,5 +163,5 @@ void cz_corridor_write_table(const CzReport *report, CzTerminal *terminal) {
             terminal, CZ_STYLE_PLAIN, "The design as written, with its reserves: %s.\n",
             cz_verdict_words(corridor->design.verdict, corridor->design.n_not_covered));
     else
-        cz_terminal_print(terminal, CZ_STYLE_BAD, "INTERRUPTED: wider corridors were not tried.\n");
+        cz_terminal_print(terminal, CZ_STYLE_BAD, "INTERRUPTED: not all curves were tried.\n");
 }

@@ -209,6 +209,31 @@ static void interruption_gives_the_best_so_far(void **state) {
     end(&made);
 }
 
+/* With many scenarios, only those with the smallest margins are run after the interruption. */
+static void an_interruption_does_not_run_many_scenarios_again(void **state) {
+    (void)state;
+    stand_in_reset();
+    char more[4096] = "";
+    for (int speed = 9; speed < 15; speed++)
+        snprintf(more + strlen(more), sizeof more - strlen(more),
+                 "  - {name: at-%d, speed_km_h: %d}\n", speed, speed);
+    strcat(more, sizing);
+    Case made = begin(more, 2);
+    volatile sig_atomic_t stop = 0;
+    CzOptimiseOptions options = cz_optimise_options_default();
+    options.stop = &stop;
+    options.progress = interrupt_at_once;
+    options.progress_data = (void *)&stop;
+    optimise(&made, &options);
+    const CzEvaluation *best = &made.outcome->best_evaluation;
+    assert_int_equal(made.outcome->status, CZ_OUTCOME_INTERRUPTED);
+    assert_int_equal(best->n_run, 2);
+    assert_true(isfinite(best->objective));
+    assert_int_equal(find(best, "force", "at-9")->verdict, CZ_VERDICT_NOT_CHECKED);
+    assert_int_equal(find(best, "force", "crash")->verdict, CZ_VERDICT_PASS);
+    end(&made);
+}
+
 /* An executor that sets the stop flag when a batch begins. */
 typedef struct Stopper {
     int n_batch, at;
@@ -398,6 +423,7 @@ int main(void) {
         cmocka_unit_test(an_infeasible_problem_gives_the_least_violated_design),
         cmocka_unit_test(a_design_that_passes_only_between_the_increments_is_given_and_reported),
         cmocka_unit_test(interruption_gives_the_best_so_far),
+        cmocka_unit_test(an_interruption_does_not_run_many_scenarios_again),
         cmocka_unit_test(a_search_without_its_sensitivities_is_cut_short),
         cmocka_unit_test(a_violation_in_the_full_run_is_never_reported_as_success),
         cmocka_unit_test(problem_without_variables_is_refused),

@@ -244,13 +244,7 @@ static void conclude_verification(const CzCombinations *combinations, long limit
         return;
     }
     write_why(combinations, limit, outcome);
-    const size_t n = strlen(outcome->why_stopped);
-    const bool is_found = outcome->status == CZ_OUTCOME_FEASIBLE;
-    char designs[60];
-    snprintf(designs, sizeof designs, outcome->n_rejected == 1 ? "1 design" : "%d designs",
-             outcome->n_rejected);
-    snprintf(outcome->why_stopped + n, sizeof outcome->why_stopped - n,
-             is_found ? "; %s with a better objective not verified" : "; %s not verified", designs);
+    cz_outcome_note_rejected(outcome);
 }
 
 /* Looks for the relaxation of a limit; a design that it finds to pass without one is verified. */

@@ -13,6 +13,8 @@
 #include "optimise/combinations.h"
 #include "optimise/outcome.h"
 #include "optimise/robust_cases.h"
+#include "optimise/robust_judge.h"
+#include "optimise/verified.h"
 
 enum {
     MAX_ROUNDS = 24,
@@ -66,7 +68,8 @@ static void show_search(const CzProgress *progress, void *data) {
 }
 
 /* Shows that samples or the adversary run. */
-static void show_phase(const Robust *robust, const char *phase) {
+static void show_phase(const char *phase, void *data) {
+    const Robust *robust = data;
     const CzProgress progress = {.n_evaluation = robust->n_trial,
                                  .most_evaluations = robust->options.evaluations,
                                  .feasible =
@@ -165,83 +168,18 @@ static CzStatus search(Robust *robust, CzRobustRound *round, CzError *error) {
 
 /* ---- the judgement of a round ---------------------------------------------------------------- */
 
-/* Samples and adversary run where the search runs. */
-static void take_executor(const Robust *robust, int *n_job, const CzExecutor **executor) {
-    const CzEvaluatorOptions *options = robust->evaluator_options;
-    *n_job = options != NULL ? options->n_job : 0;
-    *executor = options != NULL ? options->executor : NULL;
-}
-
-/* Samples a design; brief runs tell what breaks it, whole ones that it holds. */
-static CzStatus sample(const Robust *robust, const CzProblem *designed, bool brief,
-                       CzSampling **sampling, CzError *error) {
-    CzSampleOptions options = cz_sample_options_default();
-    options.brief = brief;
-    take_executor(robust, &options.n_job, &options.executor);
-    options.stop = robust->options.stop;
-    show_phase(robust, "samples");
-    return cz_sample_problem(designed, &options, sampling, error);
-}
-
-/* Asks the adversary. */
-static CzStatus challenge(const Robust *robust, const CzProblem *designed, CzChallenge **challenge,
-                          CzError *error) {
-    CzChallengeOptions options = cz_challenge_options_default();
-    take_executor(robust, &options.n_job, &options.executor);
-    options.stop = robust->options.stop;
-    options.most_weak = CZ_ROBUST_MAX_NEW;
-    show_phase(robust, "adversary");
-    return cz_challenge(designed, NULL, &options, challenge, error);
-}
-
-/* Smallest margin of the scenarios of the file. */
-static double nominal_margin(const CzSampling *sampling) {
-    double smallest = INFINITY;
-    for (int i = 0; i < sampling->nominal.n_check; i++)
-        smallest = fmin(smallest, sampling->nominal.check[i].margin); /* ignores NaN */
-    return smallest;
-}
-
-/* ---- rounds ---------------------------------------------------------------------------------- */
-
-/* What a round found about its design. */
-typedef struct Found {
-    CzProblem *designed;
-    CzSampling *sampling;
-    CzChallenge *challenge;
-} Found;
-
-static void free_found(Found *found) {
-    cz_challenge_free(found->challenge);
-    cz_sampling_free(found->sampling);
-    cz_problem_free(found->designed);
-    *found = (Found){0};
-}
-
-/* Samples the design of the round; by whole runs when it holds by brief ones. */
-static CzStatus sample_round(Robust *robust, Found *found, CzError *error) {
-    CZ_TRY(cz_evaluator_read_design(robust->plain, robust->x, &found->designed, error));
-    CZ_TRY(sample(robust, found->designed, true, &found->sampling, error));
-    if (cz_robust_violation_in(found->sampling) > 0 || is_stopped(robust))
-        return CZ_OK;
-    cz_sampling_free(found->sampling);
-    found->sampling = NULL;
-    return sample(robust, found->designed, false, &found->sampling, error);
-}
-
-static void fill_round(CzRobustRound *round, const CzSampling *sampling) {
-    round->nominal_margin = nominal_margin(sampling);
-    round->required_margin = INFINITY;
-    for (int c = 0; c < sampling->n_check; c++)
-        round->required_margin = fmin(round->required_margin, sampling->check[c].required);
-    round->n_sample = sampling->n_run;
-    round->n_pass = sampling->passing.n_pass;
+static CzRobustJudge judge_of(Robust *robust) {
+    return (CzRobustJudge){.plain = robust->plain,
+                           .evaluator_options = robust->evaluator_options,
+                           .stop = robust->options.stop,
+                           .show = show_phase,
+                           .data = robust};
 }
 
 /* Ranks a design: the first difference decides, the smaller value is better. Nominal constraints
  * come first, then the samples that fail, the runs of the adversary that break it, the violation of
  * the samples' statistics, the objective. */
-static void rank(const Robust *robust, const CzRobustRound *round, const Found *found,
+static void rank(const Robust *robust, const CzRobustRound *round, const CzRobustJudged *found,
                  double key[N_KEY]) {
     const CzEvaluation *nominal = &found->sampling->nominal;
     const CzChallenge *challenge = found->challenge;
@@ -255,8 +193,19 @@ static void rank(const Robust *robust, const CzRobustRound *round, const Found *
         key[OBJECTIVE] = -fmin(-nominal->objective, round->required_margin);
 }
 
+/* Makes the design of the last round the result; `found` gets the former one. */
+static void take_judged(CzRobust *result, CzRobustJudged *found) {
+    const CzRobustJudged former = {result->designed, result->sampling, result->challenge};
+    result->designed = found->designed;
+    result->sampling = found->sampling;
+    result->challenge = found->challenge;
+    *found = former;
+    for (int i = 0; i < result->n_round; i++)
+        result->round[i].is_best = i == result->n_round - 1;
+}
+
 /* Takes the design of a round as the best one when it is better. */
-static void compare(Robust *robust, Found *found) {
+static void compare(Robust *robust, CzRobustJudged *found) {
     CzRobust *result = robust->result;
     const CzRobustRound *round = &result->round[result->n_round - 1];
     double key[N_KEY];
@@ -267,15 +216,9 @@ static void compare(Robust *robust, Found *found) {
     robust->has_improved = result->sampling == NULL || key[k] < robust->key[k];
     if (!robust->has_improved)
         return;
-    const Found former = {result->designed, result->sampling, result->challenge};
-    result->designed = found->designed;
-    result->sampling = found->sampling;
-    result->challenge = found->challenge;
-    *found = former;
+    take_judged(result, found);
     memcpy(robust->key, key, sizeof key);
     memcpy(robust->best, robust->x, (size_t)robust->n_variable * sizeof *robust->best);
-    for (int i = 0; i < result->n_round; i++)
-        result->round[i].is_best = i == result->n_round - 1;
 }
 
 /* Whether the best design holds in all samples, and the adversary did not break it. */
@@ -286,23 +229,19 @@ static bool holds(const Robust *robust) {
 
 /* Judges the design of the round and takes further scenarios from what breaks it; *n_new is their
  * number. */
-static CzStatus judge(Robust *robust, CzRobustRound *round, Found *found, int *n_new,
+static CzStatus judge(Robust *robust, CzRobustRound *round, CzRobustJudged *found, int *n_new,
                       CzError *error) {
-    const CzUncertainty *uncertainty = &cz_problem_input(robust->problem)->uncertainty;
     CzRobustCases *added = robust->result->added;
-    CZ_TRY(sample_round(robust, found, error));
+    const CzRobustJudge by = judge_of(robust);
+    CZ_TRY(cz_robust_judge(&by, robust->x, found, error));
     const CzSampling *sampling = found->sampling;
-    fill_round(round, sampling);
+    cz_robust_fill_round(round, found);
     const double limit = robust->seen > CZ_ROBUST_NEAR ? robust->seen - CZ_ROBUST_NEAR : 0;
     const bool is_held = cz_robust_violation_in(sampling) <= 0 && sampling->nominal.violation <= 0;
     if (!is_held || round->required_margin < limit)
         *n_new = cz_robust_add_samples(added, sampling, limit);
-    if (is_held && uncertainty->n_envelope > 0 && !is_stopped(robust))
-        CZ_TRY(challenge(robust, found->designed, &found->challenge, error));
-    if (found->challenge != NULL) {
-        round->n_weak = found->challenge->is_broken ? found->challenge->n_weak : 0;
+    if (found->challenge != NULL)
         *n_new += cz_robust_add_weak_points(added, found->challenge);
-    }
     if (added->arena.out_of_memory)
         return cz_no_memory(error, "further scenarios");
     if (!is_stopped(robust) || robust->result->sampling == NULL)
@@ -310,26 +249,29 @@ static CzStatus judge(Robust *robust, CzRobustRound *round, Found *found, int *n
     return CZ_OK;
 }
 
-/* Begins a round with its scenarios; it is counted once it has a design. */
-static CzStatus begin_round(Robust *robust, CzRobustRound **round, CzError *error) {
-    CzRobust *result = robust->result;
+/* A further round. */
+static CzStatus add_round(CzRobust *result, CzRobustRound **round, CzError *error) {
     CzRobustRound *rounds = realloc(result->round, (size_t)(result->n_round + 1) * sizeof *rounds);
     if (rounds == NULL)
         return cz_no_memory(error, "the rounds");
     result->round = rounds;
     *round = &rounds[result->n_round];
-    **round = (CzRobustRound){.n_weak = -1};
-    CZ_TRY(build(robust, error));
-    (*round)->n_scenario = cz_problem_n_scenario(result->problem);
+    **round = (CzRobustRound){.n_weak = -1, .n_scenario = cz_problem_n_scenario(result->problem)};
     return CZ_OK;
+}
+
+/* Begins a round with its scenarios; it is counted once it has a design. */
+static CzStatus begin_round(Robust *robust, CzRobustRound **round, CzError *error) {
+    CZ_TRY(build(robust, error));
+    return add_round(robust->result, round, error);
 }
 
 /* Judges the design of a round. */
 static CzStatus end_round(Robust *robust, CzRobustRound *round, int *n_new, CzError *error) {
-    Found found = {0};
+    CzRobustJudged found = {0};
     robust->result->n_round++;
     const CzStatus status = judge(robust, round, &found, n_new, error);
-    free_found(&found);
+    cz_robust_judged_free(&found);
     return status;
 }
 
@@ -401,13 +343,41 @@ static void conclude(const Robust *robust, CzOutcome *outcome) {
 /* The samples of the best design by whole runs, where they were brief. */
 static CzStatus sample_best(Robust *robust, CzError *error) {
     CzRobust *result = robust->result;
+    const CzRobustJudge by = judge_of(robust);
     CzSampling *whole = NULL;
     if (holds(robust) || is_stopped(robust))
         return CZ_OK;
-    CZ_TRY(sample(robust, result->designed, false, &whole, error));
+    CZ_TRY(cz_robust_sample(&by, result->designed, false, &whole, error));
     cz_sampling_free(result->sampling);
     result->sampling = whole;
     return CZ_OK;
+}
+
+/* The next best design that is verified and holds, where the best one is not verified; it is the
+ * result as a round without a search. */
+static CzStatus find_verified(Robust *robust, CzOutcome *outcome, CzError *error) {
+    CzRobust *result = robust->result;
+    const CzRobustJudge by = judge_of(robust);
+    CzRobustJudged judged = {0};
+    CzRobustRound *round = NULL;
+    CzStatus status =
+        cz_robust_find_verified(&by, result->evaluator, &robust->options, outcome, &judged, error);
+    if (status == CZ_STATUS_INTERRUPTED) {
+        outcome->status = CZ_OUTCOME_INTERRUPTED;
+        snprintf(outcome->why_stopped, sizeof outcome->why_stopped,
+                 "interrupted during the verification");
+    } else if (status == CZ_OK && judged.sampling != NULL) {
+        status = add_round(result, &round, error);
+    }
+    if (round != NULL) {
+        result->n_round++;
+        cz_robust_fill_round(round, &judged);
+        take_judged(result, &judged);
+        memcpy(robust->best, outcome->best, (size_t)robust->n_variable * sizeof *robust->best);
+    }
+    cz_robust_judged_free(&judged);
+    cz_outcome_note_rejected(outcome);
+    return status == CZ_STATUS_INTERRUPTED ? CZ_OK : status;
 }
 
 static CzStatus fill_outcome(Robust *robust, CzError *error) {
@@ -429,6 +399,7 @@ static CzStatus fill_outcome(Robust *robust, CzError *error) {
         cz_evaluate(result->evaluator, 1, outcome->best, true, &outcome->best_evaluation, error));
     conclude(robust, outcome);
     CZ_TRY(cz_outcome_verify(result->evaluator, &robust->options, outcome, error));
+    CZ_TRY(find_verified(robust, outcome, error));
     CZ_TRY(cz_outcome_record_start(result->evaluator, outcome, error));
     CZ_TRY(cz_sensitivity_take(result->evaluator, robust->options.stop, outcome, error));
     CZ_TRY(cz_margins_order(result->evaluator, outcome, error));

@@ -28,6 +28,8 @@ set(CZ_SOURCES_optimise
     relaxation.c
     robust.c
     robust_cases.c
+    robust_judge.c
+    robust_verified.c
     sample.c
     search.c
     selection.c

@@ -10,9 +10,9 @@
 #include "base/error.h"
 #include "evaluate/evaluator.h"
 #include "optimise/combinations.h"
-#include "optimise/outcome.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -84,21 +84,39 @@ static void require(Trial *trial, const CzVerification *verification) {
     }
 }
 
-/* Notes a design that is not verified. */
-static CzStatus refuse(Trial *trial, const double *x, double objective,
-                       const CzVerification *verification, CzError *error) {
-    CzOutcome *outcome = trial->outcome;
-    CzRequired *required = &trial->required;
+CzStatus cz_outcome_reject(CzOutcome *outcome, const double *x, double objective,
+                           const CzVerification *verification, CzError *error) {
     const size_t n = (size_t)outcome->n_variable;
     double *copy = cz_outcome_numbers(outcome, n);
     if (copy == NULL)
         return cz_no_memory(error, "the outcome");
     memcpy(copy, x, n * sizeof *x);
-    required->x[required->n++] = copy;
     CzRejected *rejected = &outcome->rejected[outcome->n_rejected++];
     *rejected = (CzRejected){.x = copy, .objective = objective};
     memcpy(rejected->failure, verification->failure, sizeof rejected->failure);
     find_reason(verification, rejected);
+    return CZ_OK;
+}
+
+void cz_outcome_note_rejected(CzOutcome *outcome) {
+    const size_t n = strlen(outcome->why_stopped);
+    const bool is_found = outcome->status == CZ_OUTCOME_FEASIBLE;
+    char designs[60];
+    if (outcome->n_rejected == 0 || outcome->status == CZ_OUTCOME_INTERRUPTED)
+        return;
+    snprintf(designs, sizeof designs, outcome->n_rejected == 1 ? "1 design" : "%d designs",
+             outcome->n_rejected);
+    snprintf(outcome->why_stopped + n, sizeof outcome->why_stopped - n,
+             is_found ? "; %s with a better objective not verified" : "; %s not verified", designs);
+}
+
+/* Notes a design that is not verified, and what is required of the next ones. */
+static CzStatus refuse(Trial *trial, const double *x, double objective,
+                       const CzVerification *verification, CzError *error) {
+    CzOutcome *outcome = trial->outcome;
+    CzRequired *required = &trial->required;
+    CZ_TRY(cz_outcome_reject(outcome, x, objective, verification, error));
+    required->x[required->n++] = outcome->rejected[outcome->n_rejected - 1].x;
     require(trial, verification);
     return CZ_OK;
 }
@@ -110,19 +128,24 @@ static CzStatus refuse(Trial *trial, const double *x, double objective,
 static const double alike = 0.02;
 
 /* Largest difference of a variable between two designs, as a share of its range. */
-static double distance(const Trial *trial, const double *x, const double *other) {
+static double distance(const CzEvaluator *evaluator, const double *x, const double *other) {
     double largest = 0;
-    for (int i = 0; i < trial->outcome->n_variable; i++) {
-        const CzVariableInfo *info = cz_evaluator_variable(trial->evaluator, i);
+    for (int i = 0; i < cz_evaluator_n_variable(evaluator); i++) {
+        const CzVariableInfo *info = cz_evaluator_variable(evaluator, i);
         if (x[i] != other[i])
             largest = fmax(largest, fabs(x[i] - other[i]) / (info->max - info->min));
     }
     return largest;
 }
 
+bool cz_is_alike(const CzEvaluator *evaluator, const double *x, const double *refused,
+                 bool on_grid) {
+    return distance(evaluator, x, refused) <= (on_grid ? 0 : alike);
+}
+
 static bool is_refused(const Trial *trial, const double *x) {
     for (int i = 0; i < trial->required.n; i++)
-        if (distance(trial, x, trial->required.x[i]) <= (trial->on_grid ? 0 : alike))
+        if (cz_is_alike(trial->evaluator, x, trial->required.x[i], trial->on_grid))
             return true;
     return false;
 }

@@ -2,6 +2,7 @@
  * responds to the time step as a test wants. */
 #include "support/check.h"
 
+#include "crushzone/robust.h"
 #include "evaluate/stand_in.h"
 #include "optimise/cheats.h"
 
@@ -153,11 +154,54 @@ static void evaluations_are_left_for_a_design_that_is_not_verified(void **state)
     end(&made);
 }
 
+static CzRobust *search_robust(CzProblem **problem) {
+    char more[2048];
+    CzRobust *robust = NULL;
+    CzError error = {0};
+    const int n = snprintf(more, sizeof more, sizing, 0.9);
+    snprintf(more + n, sizeof more - (size_t)n,
+             "uncertainty:\n"
+             "  samples: 8\n"
+             "  parameters: [{path: 'trains.*.vehicles.*.mass_t', tolerance_percent: 5}]\n");
+    *problem = small_problem(more);
+    if (cz_optimise_robust(*problem, NULL, NULL, &robust, &error) != CZ_OK)
+        fail_msg("%s", error.message);
+    return robust;
+}
+
+/* The next best design is one that was met in a round, and holds in all samples. */
+static void a_design_against_scatter_that_is_not_verified_is_not_the_best(void **state) {
+    (void)state;
+    CzProblem *problem;
+    stand_in_reset();
+    CzRobust *robust = search_robust(&problem);
+    const double force = robust->outcome->best[0];
+    assert_int_equal(robust->outcome->status, CZ_OUTCOME_FEASIBLE);
+    assert_int_equal(robust->outcome->n_rejected, 0);
+    cz_robust_free(robust);
+    cz_problem_free(problem);
+    stand_in.unsteady_below = (force + 5) * 1e3;
+    robust = search_robust(&problem);
+    const CzOutcome *outcome = robust->outcome;
+    assert_int_equal(outcome->status, CZ_OUTCOME_FEASIBLE);
+    assert_int_equal(outcome->verification->verdict, CZ_VERDICT_PASS);
+    assert_true(outcome->best[0] > force);
+    assert_true(outcome->n_rejected > 0);
+    assert_near(outcome->rejected[0].x[0], force, 0, 0);
+    assert_int_equal(robust->sampling->passing.n_pass, 8);
+    assert_true(robust->round[robust->n_round - 1].is_best);
+    assert_int_equal(robust->round[robust->n_round - 1].n_evaluation, 0);
+    assert_non_null(strstr(outcome->why_stopped, "with a better objective not verified"));
+    cz_robust_free(robust);
+    cz_problem_free(problem);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(design_that_is_not_verified_is_not_the_best),
         cmocka_unit_test(without_a_verified_design_there_is_no_success),
         cmocka_unit_test(change_of_a_verdict_becomes_a_required_margin),
+        cmocka_unit_test(a_design_against_scatter_that_is_not_verified_is_not_the_best),
         cmocka_unit_test(evaluations_are_left_for_a_design_that_is_not_verified),
         cmocka_unit_test(verified_design_between_the_increments_is_given_and_reported),
     };

@@ -213,7 +213,7 @@ static void count(CzChallenge *challenge) {
     for (int c = 0; c < challenge->n_check; c++)
         for (int i = 0; i < challenge->n_point; i++) {
             CzChallengedCheck *check = &challenge->check[c];
-            const double margin = challenge->margin[(long)i * challenge->n_check + c];
+            const double margin = cz_challenge_margin(challenge, i, c);
             if (margin < check->least || (isnan(check->least) && !isnan(margin))) {
                 check->least = margin;
                 check->worst = i;

@@ -84,6 +84,18 @@ CZ_MUST_CHECK CzStatus cz_challenge_judge(const CzChallenge *challenge, const Cz
                                           CzCheckResult *result, CzJudgedCase *judged,
                                           CzError *error);
 
+/* Margin that stands for a yes or no of a run in the search, by the results of all checks
+ * (n_check); NaN where another check serves, or there is none (challenge_flags.c). */
+double cz_challenge_flag_margin(const CzChallenge *challenge, const CzCaseBench *bench, int scene,
+                                const CzRunSummary *run, const CzCheckResult *result, int check);
+
+/* Margin of a check at a point; NaN of a yes or no. */
+static inline double cz_challenge_margin(const CzChallenge *challenge, int point, int check) {
+    return challenge->check[check].is_flag
+               ? NAN
+               : challenge->margin[(long)point * challenge->n_check + check];
+}
+
 /* Whether the caller asked for an end. */
 bool cz_challenge_is_stopped(const CzChallenge *challenge);
 

@@ -125,6 +125,19 @@ static void keep(CzChallenge *challenge, int at, const CzCheckResult *result,
     }
 }
 
+/* Stores margins that stand for a yes or no. */
+static void keep_flags(CzChallenge *challenge, int at, const CzCaseBench *bench,
+                       const CzEvaluation *evaluation, int k, const CzCheckResult *result) {
+    const int n_scenario = challenge->parts->cases.n_scenario;
+    for (int i = 0; i < challenge->n_check; i++) {
+        const int run = k * n_scenario + challenge->parts->checks.check[i].scenario;
+        if (challenge->check[i].is_flag)
+            challenge->margin[(long)at * challenge->n_check + i] = cz_challenge_flag_margin(
+                challenge, bench, cz_problem_n_scenario(challenge->problem) + run,
+                cz_run_summary(evaluation->run[run]), result, i);
+    }
+}
+
 /* Stores a point whose values the reader refuses. */
 static CzStatus keep_refused(CzChallenge *challenge, int at, const CzError *mistake,
                              CzError *error) {
@@ -155,6 +168,8 @@ static CzStatus run_bench(CzChallenge *challenge, const CzCaseBench *bench, int 
         CzJudgedCase judged;
         status = cz_challenge_judge(challenge, bench, &evaluation, k, result, &judged, error);
         keep(challenge, first + k, result, &judged);
+        if (status == CZ_OK)
+            keep_flags(challenge, first + k, bench, &evaluation, k, result);
     }
     cz_evaluation_free(&evaluation);
     free(result);

@@ -3,8 +3,9 @@
  *
  * Each adversary minimises the smallest margin, or the margin of one check of one scenario. A place
  * where another check takes over is a ridge of the smallest margin and never its minimum, so the
- * smallest over all places of a check needs no smoothing here. A yes or no has no margin; a point
- * that fails one is kept, and no adversary searches for it. A run that failed is above all others
+ * smallest over all places of a check needs no smoothing here. A yes or no has no margin; a margin
+ * that stands for it is searched where there is one (challenge_flags.c), and a point that fails it
+ * is kept in any case. A run that failed is above all others
  * for an algorithm, which then leaves its neighbourhood.
  *
  * The points of a round depend on those of earlier rounds and on their own adversary alone, and so

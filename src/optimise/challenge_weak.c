@@ -62,7 +62,7 @@ static void list_pairs(Finder *finder) {
             add_pair(finder, 0, 0, i, -1);
         for (int c = 0; c < challenge->n_check; c++) {
             const long at = (long)i * challenge->n_check + c;
-            const double margin = challenge->margin[at];
+            const double margin = cz_challenge_margin(challenge, i, c);
             if (challenge->verdict[at] == CZ_VERDICT_FAIL)
                 add_pair(finder, isnan(margin) ? 2 : 1, isnan(margin) ? 0 : margin, i, c);
             else if (isfinite(margin))

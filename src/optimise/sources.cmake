@@ -3,6 +3,7 @@ set(CZ_SOURCES_optimise
     alternatives.c
     gauss_newton.c
     challenge.c
+    challenge_flags.c
     challenge_points.c
     challenge_search.c
     challenge_study.c

@@ -107,6 +107,36 @@ static void the_weakest_point_is_the_corner_of_the_closed_form(void **state) {
     cz_problem_free(problem);
 }
 
+/* Only a corner of the highest speed and mass and the lowest force bottoms out; no other check has
+ * a margin that leads there. */
+static void a_yes_or_no_without_a_margin_is_broken_too(void **state) {
+    (void)state;
+    static const char limits[] = "checks:\n"
+                                 "  design_rules: false\n"
+                                 "  limits:\n"
+                                 "    - {name: bottoming, metric: elements.bottomed_out, max: 0,\n"
+                                 "       source: ours, confidence: user}\n";
+    char text[4096];
+    CzProblem *problem = NULL;
+    CzError error = {0};
+    const int n = snprintf(text, sizeof text, "%s%s", two_masses, limits);
+    memcpy(strstr(text, "2000"), " 550", 4);
+    assert_true(crush_at(25, 1.05, 0.9e6) > 0.55 && crush_at(25, 1.05, 0.94e6) < 0.55 &&
+                crush_at(25, 1, 0.9e6) < 0.55);
+    assert_int_equal(cz_problem_read_text(text, (size_t)n, "two.yaml", ".", NULL, &problem, &error),
+                     CZ_OK);
+    const CzChallengeOptions options = runs(40);
+    CzChallenge *made = challenge(problem, NULL, &options);
+    assert_true(made->is_broken);
+    assert_string_equal(made->weak[0].check.name, "bottoming");
+    assert_true(isnan(made->weak[0].check.margin) && isnan(made->check[0].least));
+    for (int i = 0; i < made->n_point; i++)
+        if (strcmp(made->point[i].phase, "spread") == 0)
+            assert_int_equal(made->point[i].verdict, CZ_VERDICT_PASS);
+    cz_challenge_free(made);
+    cz_problem_free(problem);
+}
+
 static void every_point_has_the_margin_of_the_closed_form(void **state) {
     (void)state;
     CzProblem *problem = problem_with(400, "");
@@ -329,6 +359,7 @@ static void a_problem_without_numbers_to_vary_is_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_weakest_point_is_the_corner_of_the_closed_form),
+        cmocka_unit_test(a_yes_or_no_without_a_margin_is_broken_too),
         cmocka_unit_test(every_point_has_the_margin_of_the_closed_form),
         cmocka_unit_test(what_no_point_breaks_ends_with_its_smallest_margin),
         cmocka_unit_test(distinct_checks_are_listed_each_with_its_own_point),

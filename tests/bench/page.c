@@ -452,7 +452,7 @@ static void put_searches(const char *file) {
     Searched searched[MAX_GROUP];
     const int n = read_searches(file, searched);
     puts("\n## Searches\n\n"
-         "The usual search (`algorithm: auto`) and single algorithms of NLopt on the nine problems "
+         "The usual search (`algorithm: auto`) and single algorithms of NLopt on the ten problems "
          "of `problems/bench-designs`, each with 400 evaluations and ten seeds; algorithms without "
          "random numbers ran once.\n"
          "Single algorithms begin at the file's own design, begin again at their best one, and are "

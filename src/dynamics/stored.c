@@ -89,6 +89,12 @@ double cz_side_touch(const CzDynamics *dynamics, size_t lane, int side, double s
                  stroke);
 }
 
+double cz_superstructure_touch(const CzDynamics *dynamics, size_t lane, double stroke) {
+    const CzSuperstructureRows *rows = &cz_block_of(dynamics, lane)->parameter.superstructure;
+    const size_t i = lane % CZ_LANE_BLOCK;
+    return cz_smaller(rows->strength[i], rows->stiffness[i] * stroke) * stroke;
+}
+
 /* Integral of K d^1.5 - N_0 over the approach d, starting at rest. */
 static double wheels_stored(const CzBlock *d, size_t i) {
     const double hertz = d->parameter.wheel.hertz[i];

@@ -42,6 +42,8 @@ void cz_stored_fill(const CzDynamics *dynamics, size_t lane, CzStored *stored);
  * force, by preload and transition, times the stroke. */
 double cz_coupler_touch(const CzDynamics *dynamics, size_t lane, int side, double stroke);
 double cz_side_touch(const CzDynamics *dynamics, size_t lane, int side, double stroke);
+/* The same for a superstructure, whose force rises up to its strength, of both sides together. */
+double cz_superstructure_touch(const CzDynamics *dynamics, size_t lane, double stroke);
 
 /* Energy that a crush zone without mass has received once shortened by x, and at most by `largest`
  * before. */

@@ -14,11 +14,12 @@
  *   CORNERS * energy + (preload + transition * v h) * v h        v: closing speed of the trains
  *
  * the second term for buffers, which reach their preload within a step: four corners at a hundredth
- * of the stroke, a first touch and four more corners. A bottomed-out element may seem to return
- * STOP times its largest force times its largest stroke, the error of a step of h = 0.1 ms at a
- * stop of k = 1 GN/m and an end mass of m = 1 t: h^2 k / (12 m). Crush zones, guidances and tubes
- * have no such error: their energy follows from their state, or they crush under a force that is
- * never negative.
+ * of the stroke, a first touch and four more corners. For superstructures, which may reach their
+ * strength within a step, the strength is in place of preload and transition. A bottomed-out
+ * element may seem to return STOP times its largest force times its largest stroke, the error of a
+ * step of h = 0.1 ms at a stop of k = 1 GN/m and an end mass of m = 1 t: h^2 k / (12 m). Crush
+ * zones, guidances and tubes have no such error: their energy follows from their state, or they
+ * crush under a force that is never negative.
  */
 #include "simulate/devices.h"
 #include "simulate/run.h"
@@ -64,6 +65,8 @@ static double apparent_return(const CzBatch *batch, const CzElementResult *eleme
         return corners + cz_coupler_touch(batch->dynamics, lane, side, stroke);
     if (element->kind == CZ_ELEMENT_SIDE_BUFFERS)
         return corners + cz_side_touch(batch->dynamics, lane, side, stroke);
+    if (element->kind == CZ_ELEMENT_SUPERSTRUCTURE)
+        return corners + 0.5 * cz_superstructure_touch(batch->dynamics, lane, stroke);
     return corners;
 }
 

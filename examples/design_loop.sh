@@ -6,7 +6,7 @@
 #
 # Each pass of the loop is one run of the program with another value, and reads one number of its JSON.
 set -eu
-problem=$1
+problem=${1:?name a problem file}
 limit_kN=1500
 low=0 # km/h, known to pass
 high=40

@@ -269,7 +269,7 @@ CZ_MUST_CHECK CZ_API CzStatus cz_report_check_folder(const CzProblem *problem, c
                                                      bool replaces_search, CzError *error);
 
 /* Restores a result folder, the old one or the new one, that a process left under a hidden name
- * when it died while replacing it; whether it did. Nothing is done if the folder exists. */
+ * when it was killed while replacing it; whether it did. Nothing is done if the folder exists. */
 CZ_API bool cz_report_restore_folder(const char *folder);
 
 /* Writes a single file completely or not at all: to a temporary name first, renamed at the end. A
@@ -315,7 +315,7 @@ CZ_API void cz_report_write_dependencies(const CzProblem *problem, const char *t
 /* The journal of a search in its result folder: history.jsonl has every evaluation, one line each,
  * written before the next begins; optimised.yaml is the best design so far. They are in the
  * subfolder `unfinished` as long as the folder has earlier results. With them a search that was
- * killed, interrupted or has ended goes on. */
+ * killed, interrupted or has ended is continued. */
 typedef struct CzJournalFile CzJournalFile;
 
 /* The beginning of the search that a journal is of. Texts are borrowed. */

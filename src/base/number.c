@@ -155,9 +155,9 @@ static void print_digits(char text[CZ_NUMBER_TEXT], int digits, double value) {
     snprintf(text, CZ_NUMBER_TEXT, "%.*f", n_decimal > 0 ? n_decimal : 0, value);
 }
 
-/* Fewest significant digits that may read back to the same bits. With 15 digits every decimal
- * number of so many or fewer survives, so that zeros at its end tell; below the normal numbers this
- * fails.
+/* Fewest significant digits that may read back to the same bits. Every decimal number of up to 15
+ * digits is the same when it is printed with 15, so its zeros at the end need not be written; below
+ * the normal numbers this fails.
  */
 static int fewest_digits(double value) {
     char text[CZ_NUMBER_TEXT];

@@ -342,7 +342,7 @@ static CzStatus check_operands(const CzArguments *arguments, CzError *error) {
                        "one of them may be margin, the smallest margin of all checks");
     if (arguments->text[CZ_OPTION_RESUME] != NULL && arguments->text[CZ_OPTION_OUTPUT] != NULL)
         return cz_fail(error, CZ_STATUS_INPUT,
-                       "--resume takes no -o: the search goes on in its own folder");
+                       "--resume takes no -o: the search continues in its own folder");
     if (arguments->text[CZ_OPTION_JSON] != NULL && arguments->n_operand > 1 &&
         arguments->command != CZ_COMMAND_COMPARE && arguments->command != CZ_COMMAND_MERGE)
         return cz_fail(error, CZ_STATUS_INPUT,

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* Restores a folder that a process was replacing when it died. */
+/* Restores a folder that a process was replacing when it was killed. */
 static void restore(const CzArguments *arguments) {
     for (int i = 0; i < arguments->n_operand; i++)
         if (cz_report_restore_folder(arguments->operand[i]))

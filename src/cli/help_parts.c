@@ -101,10 +101,10 @@ static int write_catalogues(const CzArguments *arguments) {
     closedir(folder);
     qsort(name, (size_t)n, sizeof *name, compare_names);
     for (int i = 0; i < n && code == 0; i++) {
-        char told[sizeof *name + 16];
+        char shown[sizeof *name + 16];
         snprintf(path, sizeof path, "%.3800s/catalogue/%.200s", cz_share_folder, name[i]);
-        snprintf(told, sizeof told, "catalogue/%.200s", name[i]);
-        code = write_file(arguments, path, told);
+        snprintf(shown, sizeof shown, "catalogue/%.200s", name[i]);
+        code = write_file(arguments, path, shown);
     }
     return code;
 }

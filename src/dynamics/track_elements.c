@@ -10,7 +10,7 @@
 #include <string.h>
 
 #define EACH_LANE(k) _Pragma("omp simd") for (size_t k = 0; k < CZ_LANE_BLOCK; ++k)
-#define MARGIN 20.0 /* of rail beyond the outer wheels [m]: waves die out over 14 m (ours) */
+#define MARGIN 20.0 /* of rail beyond the outer wheels [m]: waves decay over 14 m (ours) */
 
 /* ---- one element ----
  *

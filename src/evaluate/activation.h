@@ -1,9 +1,9 @@
 /* Activation: how far an idle device is from crushing.
  *
  * Energies of car ends, anti-climbers, tubes and survival space are zero in most designs, and
- * without a slope there. A search therefore sees what is left before the device is activated: the
- * share of its force that is missing, the stroke of the device in front of it, the gap before it
- * touches.
+ * without a slope there. A search is therefore given what is left before the device is activated:
+ * the share of its force that is missing, the stroke of the device in front of it, the gap before
+ * it touches.
  */
 #ifndef CZ_EVALUATE_ACTIVATION_H
 #define CZ_EVALUATE_ACTIVATION_H

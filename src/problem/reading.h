@@ -13,7 +13,13 @@
 
 /* How a problem is made: from a file or text, or again from another problem with further settings
  * or scenarios, or in a way that only this process needs. */
-typedef enum CzReadStep { CZ_STEP_READ, CZ_STEP_SETTINGS, CZ_STEP_CASES, CZ_STEP_VARYING, CZ_STEP_OTHER } CzReadStep;
+typedef enum CzReadStep {
+    CZ_STEP_READ,
+    CZ_STEP_SETTINGS,
+    CZ_STEP_CASES,
+    CZ_STEP_VARYING,
+    CZ_STEP_OTHER
+} CzReadStep;
 
 /* A text in place of a file. */
 typedef struct CzProblemText {

@@ -113,21 +113,21 @@ static bool make_filtered(const CzRun *run, CzMadeCurves *made) {
     return fits;
 }
 
-/* A free occupant's way and velocity in a vehicle, up to a way of 1 m. */
-static bool fly_freely(const double *speed, const double *time, int n, double *way,
+/* A free occupant's displacement and velocity in a vehicle, up to a displacement of 1 m. */
+static bool fly_freely(const double *speed, const double *time, int n, double *travel,
                        double *velocity) {
     const double farthest = 1; /* [m] */
-    if (way == NULL || velocity == NULL)
+    if (travel == NULL || velocity == NULL)
         return false;
     for (int i = 1; i < n; i++) {
         const double step = (time[i] - time[i - 1]) / CZ_MILLI_PER_UNIT;
         velocity[i] = speed[0] - speed[i];
-        way[i] = way[i - 1] + 0.5 * step * (velocity[i - 1] + velocity[i]);
-        if (!(fabs(way[i]) <= farthest)) /* also behind one that was */
-            way[i] = velocity[i] = NAN;
+        travel[i] = travel[i - 1] + 0.5 * step * (velocity[i - 1] + velocity[i]);
+        if (!(fabs(travel[i]) <= farthest)) /* also behind one that was */
+            travel[i] = velocity[i] = NAN;
     }
     for (int i = 0; i < n; i++) {
-        way[i] = fabs(way[i]);
+        travel[i] = fabs(travel[i]);
         velocity[i] = fabs(velocity[i]);
     }
     return true;
@@ -141,8 +141,8 @@ static bool make_free_flights(const CzRun *run, CzMadeCurves *made) {
         const double *speed = cz_run_channel(run, CZ_CHANNEL_BODY_SPEED, i);
         if (speed == NULL)
             continue;
-        double *way = add(made, n, CZ_DRAWN_FREE_FLIGHT, i);
-        fits = fly_freely(speed, time, n, way, add(made, n, CZ_DRAWN_OCCUPANT_SPEED, i));
+        double *travel = add(made, n, CZ_DRAWN_FREE_FLIGHT, i);
+        fits = fly_freely(speed, time, n, travel, add(made, n, CZ_DRAWN_OCCUPANT_SPEED, i));
     }
     return fits;
 }

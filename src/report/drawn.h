@@ -31,8 +31,8 @@ typedef struct CzMadeCurves {
 
 /* Computes the curves of a run: energy dissipated at all interfaces; error of the energy balance,
  * unless the initial energy is zero; accelerations through a filter CFC 60, where samples are close
- * enough; way and velocity of a free occupant. None for a run that was not recorded. Status:
- * CZ_STATUS_NO_MEMORY; free the curves in any case. */
+ * enough; displacement and velocity of a free occupant. None for a run that was not recorded.
+ * Status: CZ_STATUS_NO_MEMORY; free the curves in any case. */
 CZ_MUST_CHECK CzStatus cz_drawn_make(const CzRun *run, CzMadeCurves *made, CzError *error);
 void cz_drawn_free(CzMadeCurves *made);
 

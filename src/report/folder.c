@@ -256,7 +256,7 @@ static CzStatus check_parents(const char *path, CzError *error) {
                    parent, strerror(why));
 }
 
-/* ---- folders of processes that died while replacing one ---- */
+/* ---- folders of processes that were killed while replacing one ---- */
 
 /* Folders of a dead process; paths are empty when there is none. */
 typedef struct Left {
@@ -422,7 +422,7 @@ static CzStatus move_away(CzFolder *folder, char old[PATH_MAX], char **marker, C
     free(*marker);
     *marker = cz_marker_read(folder->target);
     int why = *marker == NULL && errno == ENOMEM ? ENOMEM : cz_temporary_name(parent, old);
-    if (why == 0) /* so that another process can restore it if this one dies before the end */
+    if (why == 0) /* so that another process can restore it if this one is killed before the end */
         cz_marker_add(folder->target, CZ_MARKER_MOVED, name_of(folder->target));
     if (why == 0 && rename(folder->target, old) == 0)
         return CZ_OK;
@@ -460,7 +460,7 @@ CzStatus cz_folder_finish(CzFolder *folder, CzError *error) {
         cz_remove_files(old, marker);
     free(marker);
     cz_parent_of(folder->target, old);
-    cz_temporary_clear(old); /* results of a process that died before it put them in place */
+    cz_temporary_clear(old); /* results of a process that was killed before it put them in place */
     return CZ_OK;
 }
 

@@ -203,7 +203,7 @@ CzStatus cz_journal_read(const char *name, FILE *stream, CzArena *arena, CzJourn
     CzJournalStart *start = &text->start;
     while (status == CZ_OK && (n_read = getline(&line, &room, stream)) > 0) {
         start->head.was_torn = line[n_read - 1] != '\n';
-        if (start->head.was_torn) /* the process died while it wrote this line */
+        if (start->head.was_torn) /* the process was killed while it wrote this line */
             break;
         line[--n_read] = '\0';
         number++;

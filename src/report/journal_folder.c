@@ -228,7 +228,7 @@ static CzStatus keep(const CzNews *news, void *data, CzError *error) {
     if (status == CZ_OK && news->best != NULL && file->report->kind == CZ_REPORT_SEARCH)
         status = keep_best(file, news, error);
     if (status == CZ_STATUS_OUTPUT && error != NULL)
-        cz_error_help(error, "the search goes on from here with --resume %.200s", file->folder);
+        cz_error_help(error, "continue the search with --resume %.200s", file->folder);
     return status;
 }
 

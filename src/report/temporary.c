@@ -176,7 +176,8 @@ static size_t folder_length(const char *name, size_t n, int depth) {
 
 void cz_remove_files(const char *folder, const char *marker) {
     char path[PATH_MAX];
-    cz_marker_add(folder, given_up, ""); /* if this process dies, another one removes the rest */
+    cz_marker_add(folder, given_up,
+                  ""); /* if this process is killed, another one removes the rest */
     cz_each_temporary(folder, remove_file, NULL);
     /* Files, then the folders around them, innermost first. */
     for (int depth = MAX_DEPTH; depth >= 0 && marker != NULL; depth--)
@@ -267,7 +268,8 @@ static void clear_folder(const char *path) {
         return;
     const int descriptor = cz_temporary_take(marker_path);
     if (descriptor < 0) {
-        (void)rmdir(path); /* the process died before it created the marker, or is trying again */
+        (void)rmdir(
+            path); /* the process was killed before it created the marker, or is trying again */
         return;
     }
     char *marker = cz_marker_read(path);

@@ -3,7 +3,7 @@
  *
  * A name is .crushzone- and sixteen digits and letters, whatever the length of the final name. That
  * process holds a lock on the file, or on the marker in the folder. The system releases the lock
- * when the process dies, so another process that gets the lock may remove the file or folder.
+ * when the process ends, so another process that gets the lock may remove the file or folder.
  * Process numbers do not suffice: in a container the next run may have the number of the last.
  */
 #ifndef CZ_REPORT_TEMPORARY_H

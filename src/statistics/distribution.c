@@ -49,7 +49,7 @@ static double normal_quantile(double p) {
     return q < 0 ? -size : size;
 }
 
-double cz_cut_normal(double u) {
+double cz_truncated_normal(double u) {
     static const double below = 1.3498980316300933e-3; /* share below -3 standard deviations */
     return fmin(fmax(normal_quantile(below + u * (1 - 2 * below)), -3), 3);
 }
@@ -64,7 +64,7 @@ double cz_uniform_value(double u, double low, double high) {
 }
 
 double cz_normal_value(double u, double low, double high) {
-    return at(cz_cut_normal(u) / 3, low, high);
+    return at(cz_truncated_normal(u) / 3, low, high);
 }
 
 double cz_triangular_value(double u, double low, double high) {
@@ -73,7 +73,7 @@ double cz_triangular_value(double u, double low, double high) {
 
 double cz_lognormal_value(double u, double low, double high) {
     const double spread = cz_logarithm(high / low) / 2; /* of the logarithm, to each side */
-    const double value = sqrt(low * high) * cz_exponential(cz_cut_normal(u) / 3 * spread);
+    const double value = sqrt(low * high) * cz_exponential(cz_truncated_normal(u) / 3 * spread);
     return fmin(fmax(value, low), high);
 }
 

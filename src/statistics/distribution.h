@@ -18,6 +18,6 @@ double cz_lognormal_value(double u, double low, double high);
 int cz_discrete_index(double u, int n);
 
 /* The standard normal variable that is cut at three standard deviations: from -3 to 3. */
-double cz_cut_normal(double u);
+double cz_truncated_normal(double u);
 
 #endif

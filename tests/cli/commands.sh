@@ -16,11 +16,11 @@ check "help is not wider than 100 columns" narrow
 topic_slip() { exits 2 "$C" help kyes && says err.txt "did you mean 'crushzone help keys'?"; }
 check "a mistyped topic gets a suggestion" topic_slip
 told_channels() { # every column of a run of full cars, with any car, interface, end and wheelset as the help writes them
-    exits 0 "$C" run "$SOURCE/problems/metro-6-car.yaml" --scenario 8-km-h -o columns -q && "$C" help channels >told.txt &&
+    exits 0 "$C" run "$SOURCE/problems/metro-6-car.yaml" --scenario 8-km-h -o columns -q && "$C" help channels >printed.txt &&
         head -1 columns/channels.csv | tr -d '\r' | tr ',' '\n' | sed 's/[AB][1-6]-[AB][1-6]/A4-B1/; s/_kJ.*/_kJ/; s/_[AB][1-6]_/_A1_/; s/_w[1-4]_/_w1_/; s/_rear_/_front_/' |
         sort -u | while read -r column; do
             stem=$(echo "$column" | sed 's/_A4-B1_.*//; s/_kJ$//') # of coupler, anti-climber and energies the stem is listed
-            grep -qF "$column" told.txt || grep -qw -- "$stem" told.txt || { echo "$column is not told"; exit 1; }
+            grep -qF "$column" printed.txt || grep -qw -- "$stem" printed.txt || { echo "$column is not printed"; exit 1; }
         done
 }
 check "help channels lists every column of a run" told_channels
@@ -52,8 +52,8 @@ bad_metric() {
         exits 2 "$C" validate metric.yaml -q && grep -q "profiles/metric.yaml:[0-9]*:5: error: there is no metric 'vehicles.flange_shore'" err.txt
 }
 check "an unknown metric of a profile is refused with its place" bad_metric
-told_checks() { "$C" help checks >told.txt && for word in profile category limits design_rules metric max min scenarios "stroke used:" "override:" interfaces.peak_force_kN; do grep -q "^  $word " told.txt || return 1; done; }
-check "help checks lists the keys of the section and every design rule" told_checks
+checks_are_printed() { "$C" help checks >printed.txt && for word in profile category limits design_rules metric max min scenarios "stroke used:" "override:" interfaces.peak_force_kN; do grep -q "^  $word " printed.txt || return 1; done; }
+check "help checks lists the keys of the section and every design rule" checks_are_printed
 manual() { exits 0 "$C" help --man && for word in run optimise '\\-\\-json' 'exit\\-codes' 130; do grep -q -- "$word" out.txt || return 1; done; }
 check "the manual page has commands, options, topics and exit codes" manual
 completes() { # completes WANTED WORD...: bash offers WANTED for the last word

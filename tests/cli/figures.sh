@@ -12,8 +12,8 @@ same_report() {
 }
 check "the report is the same from run to run, for any number of threads and in any locale" same_report
 the_same_again() { # the command that a report names gives its results again
-    exits 0 "$C" run "$SOURCE/problems/wall.yaml" --scenario 20-km-h --time-step-ms 0.05 -o told -q && says told/report.html "<pre>crushzone run wall.yaml --scenario 20-km-h --set simulation.time_step_ms=0.05</pre>" &&
-        exits 0 "$C" run "$SOURCE/problems/wall.yaml" --scenario 20-km-h --set simulation.time_step_ms=0.05 -o told-again -q && cmp told/channels.csv told-again/channels.csv &&
+    exits 0 "$C" run "$SOURCE/problems/wall.yaml" --scenario 20-km-h --time-step-ms 0.05 -o printed -q && says printed/report.html "<pre>crushzone run wall.yaml --scenario 20-km-h --set simulation.time_step_ms=0.05</pre>" &&
+        exits 0 "$C" run "$SOURCE/problems/wall.yaml" --scenario 20-km-h --set simulation.time_step_ms=0.05 -o printed-again -q && cmp printed/channels.csv printed-again/channels.csv &&
         exits 0 "$C" optimise two-trains.yaml --evaluations 120 --seed 3 -o sought -q && says sought/report.html '<pre>crushzone optimise two-trains.yaml --evaluations 120 --seed 3</pre>'
 }
 check "a report names the command that gives it again" the_same_again

@@ -18,7 +18,7 @@ replayed() { # the last feasible design of the history gives its objective again
     done
     [ $# = 10 ] && "$C" run two-trains.yaml --json "$@" >replayed.json || return 1
     for k in 0 1 2 3 4; do "$BUILD/tests/read_json" replayed.json checks.$k.margin; echo; done | sort -g | head -1 |
-        awk -v told="$(echo "$row" | cut -d, -f3)" '{ exit !($1 + told < 1e-4 && $1 + told > -1e-4) }'
+        awk -v printed="$(echo "$row" | cut -d, -f3)" '{ exit !($1 + printed < 1e-4 && $1 + printed > -1e-4) }'
 }
 check "a design of the history gives its objective again" replayed
 check "the optimum passes its check" exits 0 "$C" check out-optimised/optimised.yaml -o checked

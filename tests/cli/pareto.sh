@@ -48,7 +48,7 @@ wrong() {
         exits 2 "$C" pareto "$SOURCE/problems/first-collision.yaml" --minimise $length --minimise margin && says err.txt 'names no design variables' && [ ! -e out-pareto ]
 }
 check "wrong objectives are refused" wrong
-resumed() { # a front that died goes on to the same bytes, without its options, and refuses others
+resumed() { # a front that was killed is continued to the same bytes, without its options, and refuses others
     exits 0 "$C" pareto "$file" --minimise margin --minimise $length -n 3 --evaluations 60 -o left -q || return 1
     for n in 1 2 40 150 240; do
         rm -rf died && mkdir died && printf 'crushzone results\nhistory.jsonl\noptimised.yaml\n' >died/.crushzone && head -$n left/history.jsonl >died/history.jsonl &&
@@ -56,7 +56,7 @@ resumed() { # a front that died goes on to the same bytes, without its options, 
     done
     exits 2 "$C" pareto "$file" --resume died -n 4 && says err.txt 'its list of options is --minimise margin' && exits 2 "$C" optimise "$file" --resume died && says err.txt 'its command is pareto, here it is optimise'
 }
-check "a front that died goes on to the same bytes" resumed
+check "a front that was killed is continued to the same bytes" resumed
 cut() {
     "$C" new -q && "$C" pareto two-trains.yaml --minimise $length --minimise margin --evaluations 100000 -o cut >out.txt 2>err.txt & process=$!
     sleep 2

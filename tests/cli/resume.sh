@@ -13,7 +13,7 @@ ends() {
 }
 # begun FOLDER: whether a journal has several evaluations
 begun() { for journal in "$1/history.jsonl" "$1/unfinished/history.jsonl"; do [ -f "$journal" ] && [ "$(lines "$journal")" -gt 3 ] && return 0; done; return 1; }
-# kill_search SECONDS OPTION... FOLDER: a search that dies after a while, when it has begun
+# kill_search SECONDS OPTION... FOLDER: a search that is killed after a while, when it has begun
 kill_search() {
     sleeps=$1
     shift
@@ -68,7 +68,7 @@ ctrl_c() {
     [ $code = 130 ] && json ctrl/outcome.json status interrupted && cp ctrl/history.jsonl first.jsonl && exits 3 "$C" optimise two-trains.yaml --resume ctrl --max-time 0.6s &&
         n=$(lines first.jsonl) && [ "$(lines ctrl/history.jsonl)" -gt "$n" ] && head -"$n" ctrl/history.jsonl | cmp - first.jsonl
 }
-check "a search that was interrupted goes on" ctrl_c
+check "a search that was interrupted is continued" ctrl_c
 options() { # options of the command line are those of the journal
     ends "$C" optimise two-trains.yaml --evaluations 9 --seed 4 --set trains.A.speed_km_h=30 --time-step-ms 0.2 -o typed -q && cp -r typed typed2 &&
         ends "$C" optimise two-trains.yaml --resume typed2 -q && same_results typed typed2
@@ -81,19 +81,19 @@ continued() {
         ends "$C" optimise two-trains.yaml --resume longer --evaluations 30 -q && json longer/outcome.json evaluations 30 &&
         [ "$(lines longer/history.jsonl)" -lt 43 ] && ends "$C" optimise two-trains.yaml --evaluations 30 -o straight -q && cmp longer/history.csv straight/history.csv && cmp longer/optimised.yaml straight/optimised.yaml
 }
-check "a search that has ended goes on with a higher limit to the result of that limit" continued
+check "a search that has ended is continued with a higher limit to the result of that limit" continued
 died() { # while it continued: its journal below the earlier results
     ends "$C" optimise two-trains.yaml --evaluations 12 -o third -q && cp -r third third-before && mkdir third/unfinished && printf 'unfinished/history.jsonl\nunfinished/optimised.yaml\n' >>third/.crushzone &&
         head -20 longer/history.jsonl >third/unfinished/history.jsonl && ends "$C" optimise two-trains.yaml --resume third && says err.txt 'resuming after 19 evaluations' && same_results longer third
 }
-check "a search that died while it continued goes on" died
+check "a continued search that was killed is continued again" died
 
 many() { # most designs are run in some scenarios only; the journal has null for the others
     printf 'schema: 1\ntitle: many\nextends: two-trains.yaml\nscenarios: [{name: speeds, sweep: {speed_km_h: 10:25:16}}]\n' >many.yaml
     ends "$C" optimise many.yaml --evaluations 18 -o many && says out.txt 'of 16 scenarios limit the designs' && json many/outcome.json scenarios.15.evaluations && json many/outcome.json evaluations_in_all_scenarios && grep -q '"constraints": \[null, ' many/history.jsonl &&
         mkdir some && printf 'crushzone results\nhistory.jsonl\noptimised.yaml\n' >some/.crushzone && head -9 many/history.jsonl >some/history.jsonl && ends "$C" optimise many.yaml --resume some && same_results many some
 }
-check "a search that selects its scenarios goes on" many
+check "a search that selects its scenarios is continued" many
 
 # ---- refusals ----
 other() { # other TEXT OPTION...: refused, and the folder stays as it was

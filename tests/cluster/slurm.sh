@@ -118,7 +118,7 @@ if [ "$1" = limit ]; then
 else
     check "a search that gets TERM keeps its journal and is queued again" signalled
     check "it has the bytes of a search that was never interrupted" as_never_interrupted two.yaml
-    check "a search that is killed without a signal goes on too" lost
+    check "a search that is killed without a signal is continued too" lost
     check "it has the same bytes" same_results never out-optimised
 fi
 finish

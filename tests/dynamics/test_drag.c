@@ -17,10 +17,10 @@ static const char *const slide = "tests/physics/cases/slide.yaml";
 static void assert_stops(const char *setting, double share) {
     Collision collision = collide(two_masses, WITH(setting, "trains.B.brake.ratio=0.1"), 0);
     const int last = n_sample(&collision) - 1;
-    const double way = 10.0 * 10.0 / (2.0 * share * GRAVITY);
+    const double travel = 10.0 * 10.0 / (2.0 * share * GRAVITY);
     const double *x = channel(&collision, CZ_CHANNEL_BODY_DISPLACEMENT, "A1"),
                  *v = channel(&collision, CZ_CHANNEL_BODY_SPEED, "A1");
-    assert_near(x[last], way, 1e-4, 0.0);
+    assert_near(x[last], travel, 1e-4, 0.0);
     assert_near(v[last], 0.0, 0.0, 1e-9);
     assert_near(x[last], x[last - 500], 0.0, 1e-9);
     for (int i = 1; i <= last; i++)

@@ -22,10 +22,10 @@ static void turn(Motion *motion, double a, double b) {
     *position(motion, CZ_DOF(end[0].pitch), 1) = b;
 }
 
-static void move(Motion *motion, int axis, double way) {
-    *position(motion, (axis == 0 ? CZ_DOF(body.x) : CZ_DOF(body.z)), 0) += way;
-    *position(motion, (axis == 0 ? CZ_DOF(end[0].x) : CZ_DOF(end[0].z)), 0) += way;
-    *position(motion, (axis == 0 ? CZ_DOF(end[1].x) : CZ_DOF(end[1].z)), 0) += way;
+static void move(Motion *motion, int axis, double travel) {
+    *position(motion, (axis == 0 ? CZ_DOF(body.x) : CZ_DOF(body.z)), 0) += travel;
+    *position(motion, (axis == 0 ? CZ_DOF(end[0].x) : CZ_DOF(end[0].z)), 0) += travel;
+    *position(motion, (axis == 0 ? CZ_DOF(end[1].x) : CZ_DOF(end[1].z)), 0) += travel;
     motion_evaluate(motion);
 }
 

@@ -153,7 +153,7 @@ static CzRun *simulate(const CzModel *model, const CzVehicle *vehicles,
     const double energy = mass * speed * speed / 4;
     const double tube_force = vehicles[0].front.coupler.tube.stages[0].force;
     double scatter = 1;
-    if (stand_in.rattle)
+    if (stand_in.scatter)
         scatter += 2e-3 * sin(tube_force * 1e-2);
     if (is_halved)
         scatter += stand_in.step_energy;
@@ -179,7 +179,7 @@ static CzRun *simulate(const CzModel *model, const CzVehicle *vehicles,
     }
     run->summary = (CzRunSummary){.scenario = scenario->name,
                                   .ended = CZ_ENDED_BY_RULE,
-                                  .closing_speed = 0.05, /* rattle */
+                                  .closing_speed = 0.05, /* residual */
                                   .n_interface = 1,
                                   .interface = interface,
                                   .n_vehicle = 2,

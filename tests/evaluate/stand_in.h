@@ -19,8 +19,8 @@ typedef struct StandIn {
                               energy [N]; 0 for never */
     double step_energy;    /* share of the energy that a halved time step adds */
     int batch_width;
-    long n_run; /* runs made since the reset */
-    int rattle; /* energy scatter of a few per mille, a function of the design */
+    long n_run;  /* runs made since the reset */
+    int scatter; /* energy scatter of a few per mille, a function of the design */
 } StandIn;
 extern StandIn stand_in;
 void stand_in_reset(void);

@@ -279,7 +279,7 @@ static void result_depends_neither_on_neighbours_nor_on_threads(void **state) {
     (void)state;
     enum { N = 150 };
     stand_in_reset();
-    stand_in.rattle = 1;
+    stand_in.scatter = 1;
     CzProblem *problem = small_problem(variables);
     double x[2 * N];
     for (int i = 0; i < N; i++) {

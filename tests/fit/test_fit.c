@@ -235,7 +235,7 @@ static void load_coupler(Curve *made) {
 
 /* The stop is shared out between buffer and tube: strokes grow by as much at most, and forces
  * change in proportion. A break is found to half of the distance between two points. */
-static void a_coupler_is_buffer_tube_and_shear_off(void **state) {
+static void a_coupler_is_fitted_by_buffer_tube_and_shear_off(void **state) {
     (void)state;
     load_coupler(&curve);
     CzFit *fit = fit_of(&curve, CZ_FIT_COUPLER, -1);
@@ -419,7 +419,7 @@ int main(void) {
         cmocka_unit_test(a_noisy_end_keeps_its_energies),
         cmocka_unit_test(a_straight_unloading_stays_one_line),
         cmocka_unit_test(an_end_that_does_not_unload_gets_a_stiffness_that_the_law_allows),
-        cmocka_unit_test(a_coupler_is_buffer_tube_and_shear_off),
+        cmocka_unit_test(a_coupler_is_fitted_by_buffer_tube_and_shear_off),
         cmocka_unit_test(a_noisy_coupler_has_the_same_members),
         cmocka_unit_test(a_coupler_that_returns_completely_is_a_buffer_alone),
         cmocka_unit_test(duplicate_strokes_are_jumps),

@@ -53,12 +53,12 @@ struct Element {
 /* Moves the element to x in small steps and returns the work done on it [J]. */
 static inline double drive(Element *element, double x, double step) {
     const double start = element->x;
-    const double way = x - start;
-    const int n = 1 + (int)((way < 0 ? -way : way) / step);
+    const double travel = x - start;
+    const int n = 1 + (int)((travel < 0 ? -travel : travel) / step);
     double work = 0.0;
     for (int i = 1; i <= n; i++) {
         const double last_x = element->x, last_f = element->f;
-        element->x = i == n ? x : start + way * i / n;
+        element->x = i == n ? x : start + travel * i / n;
         element->f = element->force(element, element->x);
         work += 0.5 * (last_f + element->f) * (element->x - last_x);
     }

@@ -4,7 +4,7 @@
 
 #include "evaluate/metric.h"
 #include "evaluate/stand_in.h"
-#include "optimise/cheats.h"
+#include "optimise/loopholes.h"
 #include "problem/problem.h"
 
 /* ---- bounds bind the search alone ------------------------------------------------------------ */

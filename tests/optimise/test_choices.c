@@ -1,5 +1,5 @@
 /* Variables that choose a buffer: a buffing collision of two rigid cars with each buffer. */
-#include "optimise/cheats.h"
+#include "optimise/loopholes.h"
 
 static const char buffing[] =
     "schema: 1\n"

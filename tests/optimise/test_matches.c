@@ -1,6 +1,6 @@
 /* Fits of parameters to measurements: the parameters of a run are recovered, and parameters that
  * cannot be identified are reported. */
-#include "optimise/cheats.h"
+#include "optimise/loopholes.h"
 
 #include <unistd.h>
 

@@ -3,7 +3,7 @@
 #include "support/check.h"
 
 #include "evaluate/stand_in.h"
-#include "optimise/cheats.h"
+#include "optimise/loopholes.h"
 
 /* The start needs the ends at 27.5 km/h; stronger anti-climbers satisfy its force limit and the
  * reserve of strokes. */
@@ -358,7 +358,7 @@ static void search_in_which_most_designs_fail_ends_as_failed(void **state) {
 static void optimiser_cannot_win_by_crushing_the_survival_space(void **state) {
     (void)state;
     stand_in_reset();
-    check_cheat(&(Cheat){
+    check_loophole(&(Loophole){
         .limits = "{name: visible, metric: energy.survival_kJ, max: 1e9, scenarios: [crash]}",
         .minimise = "design.installed_length_mm",
         .variables = "{path: \"parts.anti-climber.stages[0].stroke_mm\", min: 1, max: 900}",
@@ -415,7 +415,7 @@ static void optimiser_cannot_dilute_the_mean_deceleration(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        CHEATS,
+        LOOPHOLES,
         cmocka_unit_test(design_that_passes_is_found_on_the_catalogue_steps),
         cmocka_unit_test(sensitivities_are_differences_of_designs),
         cmocka_unit_test(history_keeps_the_designs),

@@ -4,7 +4,7 @@
 
 #include "crushzone/pareto.h"
 #include "evaluate/stand_in.h"
-#include "optimise/cheats.h"
+#include "optimise/loopholes.h"
 
 #define LENGTH "design.installed_length_mm"
 #define FORCE "interfaces.peak_force_kN"

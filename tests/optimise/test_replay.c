@@ -2,7 +2,7 @@
 #include "support/check.h"
 
 #include "evaluate/stand_in.h"
-#include "optimise/cheats.h"
+#include "optimise/loopholes.h"
 #include "optimise/journal_in_memory.h"
 #include "optimise/outcome.h"
 

@@ -4,7 +4,7 @@
 
 #include "crushzone/robust.h"
 #include "evaluate/stand_in.h"
-#include "optimise/cheats.h"
+#include "optimise/loopholes.h"
 
 /* The weaker the anti-climbers the better, as long as their stroke is used up to the limit at most.
  */

@@ -4,7 +4,7 @@
 #include "support/check.h"
 
 #include "evaluate/stand_in.h"
-#include "optimise/cheats.h"
+#include "optimise/loopholes.h"
 
 static const char shortest[] =
     "optimise:\n"

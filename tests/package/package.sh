@@ -62,7 +62,7 @@ sed 's|catalogue/generic.yaml|generic.yaml|' "$SOURCE/problems/two-cars-25kmh.ya
 dpkg-deb -x "$deb" unpacked
 unpacked() { (cd elsewhere && exits 0 ../unpacked/usr/bin/crushzone new two-trains -q && exits 0 ../unpacked/usr/bin/crushzone optimise two-trains.yaml -q && [ -s out-optimised/report.html ]); }
 check "the program runs from the unpacked package" unpacked
-check "it looks for its data in /usr/share" sh -c 'cd elsewhere && sed "s|generic.yaml|nowhere-at-all.yaml|" cars.yaml >nowhere.yaml && ! ../unpacked/usr/bin/crushzone validate nowhere.yaml 2>told && grep -q "/usr/share/crushzone" told'
+check "it looks for its data in /usr/share" sh -c 'cd elsewhere && sed "s|generic.yaml|nowhere-at-all.yaml|" cars.yaml >nowhere.yaml && ! ../unpacked/usr/bin/crushzone validate nowhere.yaml 2>printed && grep -q "/usr/share/crushzone" printed'
 if [ -x "$BUILD/crushzone-mpi" ]; then
     ranks_deb=$(ls root/build/package/crushzone-mpi_*.deb)
     ranks_need() { # the same version, Open MPI, and no library that crushzone depends on already

@@ -26,11 +26,11 @@ static void stiffen(CzVehicle *vehicle, double stiffness) {
 /* Crush zones yield after a micrometre: a stiffness of 1.5e12 N/m and more, where a file begins at
  * a tenth of a millimetre. A plateau loses half of the stroke over which the force builds up. */
 #define A_MICROMETRE 1e-6
-static void yield_at_once(CzVehicle *vehicle, double way) {
+static void yield_at_once(CzVehicle *vehicle, double travel) {
     CzEnd *const ends[] = {&vehicle->front, &vehicle->rear};
     for (int end = 0; end < 2; end++)
         if (ends[end]->n_stages > 0)
-            ends[end]->stages[0].stroke = way;
+            ends[end]->stages[0].stroke = travel;
 }
 
 /* ---- two masses and one plateau ---- */
@@ -198,7 +198,7 @@ void rows_of_four_stages(Rows *rows) {
 void rows_of_sequence(Rows *rows, const Step *step) {
     static const struct {
         const char *name;
-        double time, speed, way;
+        double time, speed, travel;
     } ends[] = {{"end of the coupler", 0.045429, 6.263011, 0.30},
                 {"anti-climber contact", 0.048622, 6.263011, 0.32},
                 {"end of the anti-climber", 0.102266, 4.921921, 0.62}};
@@ -213,7 +213,7 @@ void rows_of_sequence(Rows *rows, const Step *step) {
     for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
         ROW(rows, "m/s", value_at(&collision, v, ends[i].time), ends[i].speed, step->tolerance, 0.0,
             "%s, %g s: speed, %s", ends[i].name, ends[i].time, step->name);
-        ROW(rows, "m", value_at(&collision, x, ends[i].time), ends[i].way, step->tolerance, 0.0,
+        ROW(rows, "m", value_at(&collision, x, ends[i].time), ends[i].travel, step->tolerance, 0.0,
             "%s, %g s: displacement, %s", ends[i].name, ends[i].time, step->name);
     }
     ROW(rows, "s", time_of_fall(&collision, v, NULL), 0.167891, step->tolerance, 0.0,

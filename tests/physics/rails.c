@@ -351,7 +351,7 @@ static double impact(int step) {
 }
 
 /* Deflection of the rail under it [m], by the modes up to a cut and their residual flexibility. */
-static void impact_on_modes(double cut, double way[N_IMPACT]) {
+static void impact_on_modes(double cut, double travel[N_IMPACT]) {
     const double at[4] = {OFF_THE_SEATS, 0.0, 0.0, 0.0}, none[4] = {0.0};
     CzArena arena = {0};
     const CzTrackModes *modes = usual_modes(18.26, 0, cut, &arena);
@@ -362,14 +362,14 @@ static void impact_on_modes(double cut, double way[N_IMPACT]) {
         const double force[4] = {-impact(i), 0.0, 0.0, 0.0};
         double deflection[4], flexibility[4];
         cz_track_deflection(track, 0, at, deflection, flexibility);
-        way[i] = flexibility[0] * impact(i) - deflection[0];
+        travel[i] = flexibility[0] * impact(i) - deflection[0];
         cz_track_step(track, &track->under[0], force);
     }
     cz_arena_free(&arena);
 }
 
 /* By finite elements, `nodes` to a bay. */
-static void impact_on_elements(int nodes, double way[N_IMPACT]) {
+static void impact_on_elements(int nodes, double travel[N_IMPACT]) {
     const CzRoadbed roadbed = usual_roadbed();
     const CzSeats seats = cz_seats(&roadbed, 2);
     const double at[4] = {OFF_THE_SEATS, 0.0, 0.0, 0.0}, none[4] = {0.0};
@@ -381,7 +381,7 @@ static void impact_on_elements(int nodes, double way[N_IMPACT]) {
         const double force[4] = {-impact(i), 0.0, 0.0, 0.0};
         CzRailPoint point[4];
         cz_elements_deflection(elements, 0, at, point);
-        way[i] = point[0].flexibility * impact(i) - point[0].z;
+        travel[i] = point[0].flexibility * impact(i) - point[0].z;
         memcpy(elements->under[0].force, force, sizeof force);
         cz_elements_step(elements, 0);
     }
@@ -389,10 +389,10 @@ static void impact_on_elements(int nodes, double way[N_IMPACT]) {
 }
 
 /* Largest difference of two methods over the largest value of the second. */
-static double difference_of_ways(const double *way, const double *other) {
+static double largest_difference(const double *travel, const double *other) {
     double largest = 0.0, size = 0.0;
     for (int i = 0; i < N_IMPACT; ++i) {
-        largest = fmax(largest, fabs(way[i] - other[i]));
+        largest = fmax(largest, fabs(travel[i] - other[i]));
         size = fmax(size, fabs(other[i]));
     }
     return largest / size;
@@ -400,18 +400,18 @@ static double difference_of_ways(const double *way, const double *other) {
 
 void rows_of_impact(Rows *rows) {
     static const double cuts[] = {800.0, 1500.0, 3000.0};
-    static double finest[N_IMPACT], way[N_IMPACT];
+    static double finest[N_IMPACT], travel[N_IMPACT];
     double most = 0.1; /* modes to 800 Hz leave 5 % of the statics; a millisecond doubles it */
     impact_on_elements(16, finest);
     for (int nodes = 4; nodes <= 8; nodes *= 2) {
-        impact_on_elements(nodes, way);
+        impact_on_elements(nodes, travel);
         /* At most the error of the wave with its nodes at the sleepers. */
-        ROW_UP_TO(rows, "", difference_of_ways(way, finest), 0.0106 * 16.0 / (nodes * nodes),
+        ROW_UP_TO(rows, "", largest_difference(travel, finest), 0.0106 * 16.0 / (nodes * nodes),
                   "impact, elements with %d nodes a bay: difference from 16", nodes);
     }
     for (size_t c = 0; c < sizeof cuts / sizeof cuts[0]; ++c) {
-        impact_on_modes(cuts[c], way);
-        const double difference = difference_of_ways(way, finest);
+        impact_on_modes(cuts[c], travel);
+        const double difference = largest_difference(travel, finest);
         ROW_UP_TO(
             rows, "", difference, most,
             "impact, modes to %g Hz with residual flexibility: difference from 16 nodes a bay",

@@ -65,7 +65,7 @@ void rows_of_hertz_impact(Rows *rows) {
     const double mass = 1000.0, speed = 0.2, step = 1e-6;
     const double g = 4.22e-8, hertz = 2.0 / (g * sqrt(g)); /* a worn tread of 0.46 m */
     const double energy = 1.25 * mass * speed * speed / hertz;
-    const double way = cbrt(energy) * pow(energy, 1.0 / 15.0); /* ^(2/5) */
+    const double travel = cbrt(energy) * pow(energy, 1.0 / 15.0); /* ^(2/5) */
     double u = 0.0, v = speed, a = 0.0, last = 0.0, most = 0.0, deepest = 0.0, before = 0.0;
     double duration = NAN;
     for (int i = 1; isnan(duration) && i < 10000; i++) {
@@ -78,11 +78,11 @@ void rows_of_hertz_impact(Rows *rows) {
         if (u <= 0.0)
             duration = step * (i - u / (u - before));
     }
-    ROW(rows, "mm", 1e3 * deepest, 1e3 * way, 1e-5, 0.0,
+    ROW(rows, "mm", 1e3 * deepest, 1e3 * travel, 1e-5, 0.0,
         "wheelset of 1 t at 0.2 m/s onto a rail: indentation");
-    ROW(rows, "kN", 1e-3 * most, 1e-3 * hertz * way * sqrt(way), 1e-5, 0.0,
+    ROW(rows, "kN", 1e-3 * most, 1e-3 * hertz * travel * sqrt(travel), 1e-5, 0.0,
         "wheelset of 1 t at 0.2 m/s onto a rail: largest force");
-    ROW(rows, "ms", 1e3 * duration, 1e3 * 2.943275 * way / speed, 1e-5, 0.0,
+    ROW(rows, "ms", 1e3 * duration, 1e3 * 2.943275 * travel / speed, 1e-5, 0.0,
         "wheelset of 1 t at 0.2 m/s onto a rail: duration");
     ROW(rows, "m/s", v, -speed, 1e-5, 0.0, "wheelset of 1 t at 0.2 m/s onto a rail: rebound");
 }

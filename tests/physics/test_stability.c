@@ -192,12 +192,12 @@ static void a_pitching_car_lifts_its_wheels_by_its_stops(void **state) {
             hanging(wheelset, *parameter(&motion, CZ_PARAMETER(primary_preload[3]), 0),
                     *parameter(&motion, CZ_PARAMETER(primary.stiffness), 0),
                     *parameter(&motion, CZ_PARAMETER(primary.lift_stiffness), 0), 0.025);
-        const double way = 7.85 * pitches[i];
+        const double travel = 7.85 * pitches[i];
         if (getenv("CZ_TOL_SCALE") != NULL)
             print_message("%g mm at %g mrad: l_c pitch %g mm, less gaps %g mm\n", 1e3 * lift,
-                          1e3 * pitches[i], 1e3 * way, 1e3 * (way - 0.055));
-        assert_near(lift, way - secondary - primary, 0.0, 1.6 * pitches[i] * pitches[i]);
-        assert_true(lift < way - 0.055); /* elastic stops lift less than rigid ones */
+                          1e3 * pitches[i], 1e3 * travel, 1e3 * (travel - 0.055));
+        assert_near(lift, travel - secondary - primary, 0.0, 1.6 * pitches[i] * pitches[i]);
+        assert_true(lift < travel - 0.055); /* elastic stops lift less than rigid ones */
         motion_close(&motion);
     }
 }

@@ -44,9 +44,9 @@ static void both_branches_of_a_wave_deflect_as_its_statics(void **state) {
     const CzSeats seats = cz_seats(&roadbed, 2);
     for (double k = 0.05; k < 50.0; k *= 1.7) {
         const CzRailWave wave = cz_rail_wave(&seats, k);
-        const double way =
+        const double travel =
             (wave.share / wave.bending + (1.0 - wave.share) / wave.shear) / seats.mass;
-        assert_near(way, 1.0 / (seats.bending * k * k * k * k) + 1.0 / (seats.shear * k * k),
+        assert_near(travel, 1.0 / (seats.bending * k * k * k * k) + 1.0 / (seats.shear * k * k),
                     ROUNDING_OF_A_SUM, 0.0);
     }
 }

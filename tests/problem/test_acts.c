@@ -18,7 +18,7 @@ static const CzError *warning_of(const CzProblem *problem, const char *word) {
 static void a_key_without_its_companion_is_warned_of_at_its_place(void **state) {
     (void)state;
     CzProblem *problem = read_good_text("schema: 1\n"
-                                        "title: lone\n"
+                                        "title: unpaired\n"
                                         "extends: rigid.yaml\n"
                                         "parts:\n"
                                         "  bumper:\n"

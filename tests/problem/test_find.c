@@ -40,7 +40,7 @@ static void a_path_through_a_part_names_every_user_that_does_not_override(void *
     check_found("parts.coupler.tube.trigger_kN", 12, rest);
 }
 
-static void a_star_makes_one_match_of_every_item(void **state) {
+static void an_asterisk_matches_every_item(void **state) {
     (void)state;
     const size_t first = offsetof(CzVehicle, front.anti_climber.stages[0].stroke);
     const size_t second = offsetof(CzVehicle, front.anti_climber.stages[1].stroke);
@@ -273,7 +273,7 @@ int main(void) {
         cmocka_unit_test(numbers_of_trains_and_of_the_simulation_are_found_too),
         cmocka_unit_test(variables_keep_the_places_of_their_paths),
         cmocka_unit_test(a_path_through_a_part_names_every_user_that_does_not_override),
-        cmocka_unit_test(a_star_makes_one_match_of_every_item),
+        cmocka_unit_test(an_asterisk_matches_every_item),
         cmocka_unit_test(a_path_through_a_vehicle_names_its_repeats_and_copies_too),
         cmocka_unit_test(behind_a_star_items_without_the_record_are_skipped),
         cmocka_unit_test(a_target_has_its_unit_and_its_concrete_path),

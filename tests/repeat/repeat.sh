@@ -60,7 +60,7 @@ tells_run_info() {
 }
 
 check "run_info exists" tells_run_info
-"$PROGRAM" new two-trains -o search.yaml >told 2>&1
+"$PROGRAM" new two-trains -o search.yaml >printed 2>&1
 check "the problems run" results reference "$PROGRAM"
 check "the compared results contain histories" has_channels
 check "a second run gives the same bytes" same again "$PROGRAM"

@@ -17,8 +17,8 @@ refuses_another_version() {
     mkdir -p newer
     printf 'cmake_minimum_required(VERSION 3.22)\nproject(newer LANGUAGES C)\nfind_package(crushzone 99 REQUIRED)\n' \
         >newer/CMakeLists.txt
-    ! cmake -G Ninja -S newer -B newer/build -DCMAKE_PREFIX_PATH="$prefix" >told 2>&1 &&
-        grep -q 'compatible with requested version "99"' told
+    ! cmake -G Ninja -S newer -B newer/build -DCMAKE_PREFIX_PATH="$prefix" >printed 2>&1 &&
+        grep -q 'compatible with requested version "99"' printed
 }
 pc() {
     PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name crushzone.pc)") pkg-config "$@" crushzone

@@ -33,9 +33,9 @@ if [ "${1:-}" = all ]; then
         verified() {
             code=0
             "$C" verify "$sized" --scenario "$scenario" --json >out.txt || code=$?
-            for way in half_step full_track scatter reference adams; do
-                json out.txt methods.$way.flips 0 && change=$("$BUILD/tests/read_json" out.txt methods.$way.largest_change) || return 1
-                echo "$change" | awk '{ exit !($1 > 0 && $1 < 0.01) }' || { echo "$way changes $change"; return 1; }
+            for method in half_step full_track scatter reference adams; do
+                json out.txt methods.$method.flips 0 && change=$("$BUILD/tests/read_json" out.txt methods.$method.largest_change) || return 1
+                echo "$change" | awk '{ exit !($1 > 0 && $1 < 0.01) }' || { echo "$method changes $change"; return 1; }
             done
         }
         check "$scenario is verified by steps, track and solvers, and scatters by less than 1 %" verified
@@ -53,10 +53,10 @@ for scenario in inner_40km_h_A5-A6_50mm 25-km-h-partner-low; do
     after() { keeps "$scenario"; }
     check "sized absorbers keep every check of $scenario" after
 done
-told() {
+printed() {
     exits 0 "$C" explain "$cars" --set trains.A.speed_km_h=45 && says out.txt 'OVERRIDE' && says out.txt 'satisfies the limit' && says out.txt 'First cause'
 }
-check "an override gets its causes" told
+check "an override gets its causes" printed
 document() {
     exits 0 "$C" explain "$cars" --set trains.A.speed_km_h=45 --json && json out.txt format crushzone.explanation && json out.txt climbed true &&
         json out.txt changes.0.turns true && json out.txt indicators.0.cause bottoming

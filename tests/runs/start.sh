@@ -74,7 +74,7 @@ check "the list of packages is well-formed" list_is_known_to_debian
 
 # Counting: each log is one that ctest -V prints.
 counts() { # counts WANTED: the results of the log on standard input end in that line
-    awk -v preset=p -f "$SOURCE/scripts/read-ctest.awk" >results 2>told
+    awk -v preset=p -f "$SOURCE/scripts/read-ctest.awk" >results 2>printed
     "$SOURCE/scripts/count-tests" results >counted
     code=$?
     cat results counted
@@ -90,7 +90,7 @@ $end
 END
 }
 failed_case() {
-    counts "1 passed, 1 failed" <<END && [ "$code" = 1 ] && grep -q 'reason' told
+    counts "1 passed, 1 failed" <<END && [ "$code" = 1 ] && grep -q 'reason' printed
 1: [       OK ] one
 1: reason
 1: [  FAILED  ] two

@@ -43,14 +43,14 @@ static double share_below(double z) {
     return (erf(z / sqrt(2)) / erf(3 / sqrt(2)) + 1) / 2;
 }
 
-static void the_cut_normal_variable_inverts_its_distribution(void **state) {
+static void the_truncated_normal_variable_inverts_its_distribution(void **state) {
     (void)state;
     for (int i = 0; i < N; i++) {
         const double u = (i + 0.5) / N;
-        assert_near(share_below(cz_cut_normal(u)), u, 0, ROUNDING_OF_A_FORMULA);
+        assert_near(share_below(cz_truncated_normal(u)), u, 0, ROUNDING_OF_A_FORMULA);
     }
-    assert_near(cz_cut_normal(1e-17), -3, ROUNDING_OF_A_FORMULA, 0);
-    assert_near(cz_cut_normal(1 - 1e-16), 3, ROUNDING_OF_A_FORMULA, 0);
+    assert_near(cz_truncated_normal(1e-17), -3, ROUNDING_OF_A_FORMULA, 0);
+    assert_near(cz_truncated_normal(1 - 1e-16), 3, ROUNDING_OF_A_FORMULA, 0);
 }
 
 typedef double Distribution(double u, double low, double high);
@@ -127,7 +127,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(logarithm_and_exponential_agree_with_the_mathematics_library),
         cmocka_unit_test(values_have_the_recorded_bits),
-        cmocka_unit_test(the_cut_normal_variable_inverts_its_distribution),
+        cmocka_unit_test(the_truncated_normal_variable_inverts_its_distribution),
         cmocka_unit_test(distributions_have_their_mean_and_deviation),
         cmocka_unit_test(a_lognormal_value_has_a_normal_logarithm),
         cmocka_unit_test(values_stay_within_their_range),

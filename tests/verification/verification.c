@@ -42,11 +42,11 @@ static void put_row(const Row *row) {
         printf(" | ");
         put_number(fabs(row->computed) < 1e-9 ? 0.0 : row->computed, row->unit);
         printf(" | ");
-        const double told = is_relative ? difference / fabs(row->expected) : difference;
-        if (fabs(told) < 1e-9)
+        const double shown = is_relative ? difference / fabs(row->expected) : difference;
+        if (fabs(shown) < 1e-9)
             printf("0");
         else
-            printf("%.0e", told);
+            printf("%.0e", shown);
         printf(" | ");
         put_number(is_relative ? row->relative : row_allowed(row), is_relative ? "" : row->unit);
         printf(" | ");

@@ -2,7 +2,7 @@
  * itself. Every number of the problems is chosen so that the loophole pays: the optimum without the
  * rule violates it, and is better than the optimum with the rule.
  */
-#include "optimise/cheats.h"
+#include "optimise/loopholes.h"
 
 /* Two trains of two full cars of the generic catalogue. Runs have a duration: the time after the
  * crash is of no interest here. */
@@ -27,7 +27,7 @@
  */
 static void optimiser_cannot_win_by_closing_inner_gaps_beyond_the_gangway(void **state) {
     (void)state;
-    check_cheat(&(Cheat){
+    check_loophole(&(Loophole){
         .problem = TWO_AND_TWO("speed_km_h: 25, duration_ms: 600",
                                "  inner-end: {gangway_block_mm: 220}\n"
                                "  inner-coupler: {tube: {stages: [{stroke_mm: 450, force_kN: "
@@ -43,22 +43,22 @@ static void optimiser_cannot_win_by_closing_inner_gaps_beyond_the_gangway(void *
  * without overlap carry no force. */
 static void optimiser_cannot_win_by_climbing(void **state) {
     (void)state;
-    check_cheat(
-        &(Cheat){.problem = TWO_AND_TWO("speed_km_h: 22, duration_ms: 600, height_offset_mm: 160",
-                                        "  anti-climber: {rib_strength_kN: 0, friction: 0,\n"
-                                        "    stages: [{stroke_mm: 600, force_kN: 900}]}\n"),
-                 .limits = "{name: visible, metric: override, max: 1e9}",
-                 .minimise = "elements.anti-climber *.peak_force_kN",
-                 .variables = "{path: \"parts.front-coupler.tube.stages[0].force_kN\", min: 690, "
-                              "max: 850, start: 700}",
-                 .check = "override",
-                 .scenario = "crash"});
+    check_loophole(&(Loophole){
+        .problem = TWO_AND_TWO("speed_km_h: 22, duration_ms: 600, height_offset_mm: 160",
+                               "  anti-climber: {rib_strength_kN: 0, friction: 0,\n"
+                               "    stages: [{stroke_mm: 600, force_kN: 900}]}\n"),
+        .limits = "{name: visible, metric: override, max: 1e9}",
+        .minimise = "elements.anti-climber *.peak_force_kN",
+        .variables = "{path: \"parts.front-coupler.tube.stages[0].force_kN\", min: 690, "
+                     "max: 850, start: 700}",
+        .check = "override",
+        .scenario = "crash"});
 }
 
 /* Faces that overlap by less than a rib carry less force. */
 static void optimiser_cannot_win_by_losing_the_overlap_of_the_anti_climbers(void **state) {
     (void)state;
-    check_cheat(&(Cheat){
+    check_loophole(&(Loophole){
         .problem = TWO_AND_TWO("speed_km_h: 25, duration_ms: 600, height_offset_mm: 140",
                                "  anti-climber: {stages: [{stroke_mm: 600, force_kN: 500}]}\n"),
         .limits = "{name: visible, metric: interfaces.overlap_ribs, min: -1e9}",
@@ -71,7 +71,7 @@ static void optimiser_cannot_win_by_losing_the_overlap_of_the_anti_climbers(void
 /* A strong coupler unloads the anti-climbers, until they slip under its moment. */
 static void optimiser_cannot_win_with_anti_climbers_that_slip(void **state) {
     (void)state;
-    check_cheat(&(Cheat){
+    check_loophole(&(Loophole){
         .problem = TWO_AND_TWO("speed_km_h: 25, duration_ms: 600, height_offset_mm: 60",
                                "  anti-climber: {rib_strength_kN: 8, friction: 0.05,\n"
                                "    stages: [{stroke_mm: 600, force_kN: 500}]}\n"),
@@ -85,7 +85,7 @@ static void optimiser_cannot_win_with_anti_climbers_that_slip(void **state) {
 /* With a late anti-climber heavy bogies oscillate at their links, which then absorb its share. */
 static void optimiser_cannot_win_by_absorbing_energy_in_the_running_gear(void **state) {
     (void)state;
-    check_cheat(&(Cheat){
+    check_loophole(&(Loophole){
         .problem = TWO_AND_TWO("speed_km_h: 18, duration_ms: 600",
                                "  middle-car: {mass_t: 42}\n"
                                "  bogie: {mass_kg: 6000}\n"
@@ -101,7 +101,7 @@ static void optimiser_cannot_win_by_absorbing_energy_in_the_running_gear(void **
  * cab. */
 static void optimiser_cannot_win_by_crushing_the_survival_space(void **state) {
     (void)state;
-    check_cheat(&(Cheat){
+    check_loophole(&(Loophole){
         .problem = TWO_AND_TWO("speed_km_h: 28, duration_ms: 600",
                                "    stages:\n" /* of the front end */
                                "      - {stroke_mm: 20, force_MN: 1.2}\n"
@@ -145,15 +145,15 @@ static Case run_diluted(const char *subject) {
 
 static void optimiser_cannot_dilute_the_mean_deceleration(void **state) {
     (void)state;
-    Case cheated = run_diluted("diluted"), honest = run_diluted("worse");
-    assert_int_equal(cheated.outcome->status, CZ_OUTCOME_FEASIBLE);
+    Case exploited = run_diluted("diluted"), honest = run_diluted("worse");
+    assert_int_equal(exploited.outcome->status, CZ_OUTCOME_FEASIBLE);
     assert_int_equal(honest.outcome->status, CZ_OUTCOME_FEASIBLE);
-    assert_true(value_of(&cheated, "diluted", "crash") <= 1.6);
-    assert_true(value_of(&cheated, "worse", "crash") > 1.6);
+    assert_true(value_of(&exploited, "diluted", "crash") <= 1.6);
+    assert_true(value_of(&exploited, "worse", "crash") > 1.6);
     assert_true(value_of(&honest, "worse", "crash") <= 1.6);
     assert_true(honest.outcome->best_evaluation.objective >
-                cheated.outcome->best_evaluation.objective);
-    end(&cheated);
+                exploited.outcome->best_evaluation.objective);
+    end(&exploited);
     end(&honest);
 }
 
@@ -181,49 +181,49 @@ static void optimiser_cannot_dilute_the_mean_deceleration(void **state) {
 
 static void optimiser_cannot_win_with_a_tube_longer_than_its_coupler(void **state) {
     (void)state;
-    check_cheat(
-        &(Cheat){.problem = TWO_RIGID("") AT("speed_km_h: 15"),
-                 .limits = "{name: visible, metric: ends.coupler_length_used, max: 1e9}",
-                 .minimise = "elements.coupler *.stroke_used",
-                 .variables = "{path: \"parts.tube.stages[0].stroke_mm\", min: 100, max: 3000}",
-                 .check = "buffer and tubes / coupler length",
-                 .scenario = "design"});
+    check_loophole(
+        &(Loophole){.problem = TWO_RIGID("") AT("speed_km_h: 15"),
+                    .limits = "{name: visible, metric: ends.coupler_length_used, max: 1e9}",
+                    .minimise = "elements.coupler *.stroke_used",
+                    .variables = "{path: \"parts.tube.stages[0].stroke_mm\", min: 100, max: 3000}",
+                    .check = "buffer and tubes / coupler length",
+                    .scenario = "design"});
 }
 
 /* A soft tube unloads the other devices, and collapses at every coupling. */
 static void optimiser_cannot_win_with_a_tube_that_collapses_in_service(void **state) {
     (void)state;
-    check_cheat(
-        &(Cheat){.problem = TWO_RIGID("") AT("speed_km_h: 6"),
-                 .limits = "{name: visible, metric: elements.coupler *.tube_energy_kJ, max: 1e9}",
-                 .minimise = "interfaces.peak_force_kN",
-                 .variables = "{path: \"parts.tube.stages[0].force_kN\", min: 410, max: 1500}",
-                 .check = "collapse tubes inactive at 8 km/h (buffing)",
-                 .scenario = "crash"});
+    check_loophole(&(Loophole){
+        .problem = TWO_RIGID("") AT("speed_km_h: 6"),
+        .limits = "{name: visible, metric: elements.coupler *.tube_energy_kJ, max: 1e9}",
+        .minimise = "interfaces.peak_force_kN",
+        .variables = "{path: \"parts.tube.stages[0].force_kN\", min: 410, max: 1500}",
+        .check = "collapse tubes inactive at 8 km/h (buffing)",
+        .scenario = "crash"});
 }
 
 /* A tube that is almost strong enough reaches the end of its stroke after the end of the run. */
 static void optimiser_cannot_win_by_letting_the_collision_outlast_the_run(void **state) {
     (void)state;
-    check_cheat(
-        &(Cheat){.problem = TWO_RIGID("") AT("speed_km_h: 25, duration_ms: 130"),
-                 .limits = "{name: visible, metric: closing_speed_m_s, max: 1e9}",
-                 .minimise = "interfaces.peak_force_kN",
-                 .variables = "{path: \"parts.tube.stages[0].force_kN\", min: 410, max: 800}",
-                 .check = "residual closing speed",
-                 .scenario = "crash"});
+    check_loophole(
+        &(Loophole){.problem = TWO_RIGID("") AT("speed_km_h: 25, duration_ms: 130"),
+                    .limits = "{name: visible, metric: closing_speed_m_s, max: 1e9}",
+                    .minimise = "interfaces.peak_force_kN",
+                    .variables = "{path: \"parts.tube.stages[0].force_kN\", min: 410, max: 800}",
+                    .check = "residual closing speed",
+                    .scenario = "crash"});
 }
 
 /* A short tube makes a short coupler and is compressed beyond its stroke. */
 static void optimiser_cannot_win_by_bottoming_out(void **state) {
     (void)state;
-    check_cheat(
-        &(Cheat){.problem = TWO_RIGID("") AT("speed_km_h: 15"),
-                 .limits = "{name: visible, metric: elements.bottomed_out, max: 1e9}",
-                 .minimise = "ends.coupler_length_used",
-                 .variables = "{path: \"parts.tube.stages[0].stroke_mm\", min: 5, max: 400}",
-                 .check = "bottoming out",
-                 .scenario = "crash"});
+    check_loophole(
+        &(Loophole){.problem = TWO_RIGID("") AT("speed_km_h: 15"),
+                    .limits = "{name: visible, metric: elements.bottomed_out, max: 1e9}",
+                    .minimise = "ends.coupler_length_used",
+                    .variables = "{path: \"parts.tube.stages[0].stroke_mm\", min: 5, max: 400}",
+                    .check = "bottoming out",
+                    .scenario = "crash"});
 }
 
 /* Searches, and returns the evaluation of the value that would be best if its run counted. */

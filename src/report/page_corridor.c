@@ -28,8 +28,7 @@ static void write_banner(CzMarkup *markup, const CzCorridor *corridor) {
     cz_corridor_device_sentence(corridor, text);
     cz_markup_write(markup, "<p><strong>Device: %s.</strong></p>\n", text);
     if (corridor->is_interrupted)
-        cz_markup_write(markup,
-                        "<p class='fail'>Interrupted: not all curves were tried.</p>\n");
+        cz_markup_write(markup, "<p class='fail'>Interrupted: not all curves were tried.</p>\n");
 }
 
 static void put_row(CzReportTable *table, const char *name, const char *low, const char *nominal,

@@ -296,6 +296,9 @@ static CzStatus run_round(Robust *robust, bool *goes_on, CzError *error) {
     int n_new = 0;
     CZ_TRY(begin_round(robust, &round, error));
     CZ_TRY(search(robust, round, error));
+    *goes_on = false;
+    if (is_stopped(robust) && robust->result->sampling != NULL)
+        return CZ_OK; /* a result is there, and a judgement of this design would be cut short */
     CZ_TRY(end_round(robust, round, &n_new, error));
     const bool has_more = robust->options.evaluations - robust->n_trial >= MIN_EVALUATIONS &&
                           robust->result->n_round < MAX_ROUNDS;

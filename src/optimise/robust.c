@@ -400,6 +400,9 @@ static CzStatus fill_outcome(Robust *robust, CzError *error) {
     CZ_TRY(cz_outcome_evaluate_start(result->evaluator, outcome, error));
     CZ_TRY(
         cz_evaluate(result->evaluator, 1, outcome->best, true, &outcome->best_evaluation, error));
+    if (is_stopped(robust)) /* not all scenarios were run again */
+        outcome->best_evaluation.violation =
+            fmax(outcome->best_evaluation.violation, result->sampling->nominal.violation);
     conclude(robust, outcome);
     CZ_TRY(cz_outcome_verify(result->evaluator, &robust->options, outcome, error));
     CZ_TRY(find_verified(robust, outcome, error));

@@ -46,12 +46,13 @@ const char *cz_outcome_words(const CzEvaluator *evaluator, const CzOutcome *outc
     return (cz_evaluator_is_fit(evaluator) ? of_fit : words)[outcome->status];
 }
 
-/* Constraints that could not be judged did not guide the search. */
+/* Constraints that could not be judged did not guide the search; those of a scenario that was left
+ * out after an interruption did. */
 static void write_unchecked(const CzEvaluation *best, CzTerminal *terminal) {
     int n = 0;
     for (int i = 0; best->constraint_check != NULL && i < best->n_constraint; i++)
         n += best->constraint_check[i].verdict == CZ_VERDICT_NOT_CHECKED &&
-             !best->constraint_check[i].beyond_validity;
+             !best->constraint_check[i].beyond_validity && !best->constraint_check[i].has_no_run;
     if (n > 0)
         cz_terminal_print(terminal, CZ_STYLE_CAREFUL,
                           "%d constraint%s NOT CHECKED and did not guide the search.\n", n,

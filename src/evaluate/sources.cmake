@@ -33,6 +33,7 @@ set(CZ_SOURCES_evaluate
     obstacle.c
     place.c
     result_units.c
+    run_blocks.c
     run_plan.c
     runs.c
     sample_names.c

@@ -33,7 +33,7 @@ typedef enum CzStudyNumber {
     CZ_STUDY_OF_CORRIDOR,
     CZ_N_STUDY_KIND
 } CzStudyNumber;
-extern const CzStudyKind cz_study_of_runs;       /* runs.c */
+extern const CzStudyKind cz_study_of_runs;       /* run_blocks.c */
 extern const CzStudyKind cz_study_of_samples;    /* sampling.c */
 extern const CzStudyKind cz_study_of_points;     /* sweep.c */
 extern const CzStudyKind cz_study_of_candidates; /* candidate_runs.c */

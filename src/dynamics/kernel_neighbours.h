@@ -27,62 +27,34 @@ static Window window(const CzDynamics *dynamics, int index, int shift) {
                     (size_t)offset};
 }
 
-/* A row of both blocks side by side. */
-typedef double Pair[2 * CZ_LANE_BLOCK];
-
-/* Copies n consecutive rows of both blocks. All are copied before the first is read, because a load
- * that spans two stores waits for both. */
-static inline void lay(const void *low, const void *high, Pair *restrict pair, int n) {
-    const CzRow *restrict lower = low, *restrict upper = high;
-    for (int k = 0; k < n; ++k)
-        CZ_LANES (i) {
-            pair[k][i] = lower[k][i];
-            pair[k][CZ_LANE_BLOCK + i] = upper[k][i];
-        }
-}
-
-/* Reads the rows of a window. For cars on a curved track they would be rotated and shifted here. */
-static inline void pick(const Window *w, const Pair *restrict pair, void *rows, int n) {
-    const size_t offset = w->offset;
+/* Reads n consecutive rows of a window, which begin `at` bytes from the beginning of a block. For
+ * cars on a curved track they would be rotated and shifted here. */
+static inline void pick(const Window *w, size_t at, void *rows, int n) {
+    const CzRow *restrict low = (const void *)((const char *)w->low + at);
+    const CzRow *restrict high = (const void *)((const char *)w->high + at);
+    const size_t offset = w->offset, n_low = CZ_LANE_BLOCK - offset;
     CzRow *restrict row = rows;
     for (int k = 0; k < n; ++k)
         CZ_LANES (i) {
-            row[k][i] = pair[k][offset + i];
+            row[k][i] = i < n_low ? low[k][i + offset] : high[k][i - n_low];
         }
 }
 
-enum {
-    ROWS_OF_PLANE = CZ_ROWS_IN(CzPlane),
-    ROWS_OF_TURNED = CZ_ROWS_IN(CzTurned),
-    ROWS_OF_MOTION = CZ_ROWS_IN(CzMotion),
-    ROWS_PUSHED = CZ_ROWS_IN(CzPushed)
-};
+enum { ROWS_OF_PLANE = CZ_ROWS_IN(CzPlane), ROWS_OF_TURNED = CZ_ROWS_IN(CzTurned) };
 
-/* Copies a motion as the rows of a CzMotion. */
-static inline void lay_motion(const Window *w, size_t plane, size_t turned, Pair *pair) {
-    const char *low = (const char *)w->low, *high = (const char *)w->high;
-    const size_t at = offsetof(CzBlock, position), moves = offsetof(CzBlock, velocity);
-    lay(low + at + plane, high + at + plane, pair, ROWS_OF_PLANE);
-    lay(low + moves + plane, high + moves + plane, pair + ROWS_OF_PLANE, ROWS_OF_PLANE);
-    lay(low + turned, high + turned, pair + 2 * ROWS_OF_PLANE, ROWS_OF_TURNED);
-}
-
-/* Reads a row. */
-static inline void lay_row(const Window *w, size_t at, Pair *pair) {
-    lay((const char *)w->low + at, (const char *)w->high + at, pair, 1);
+/* Reads the motion of a body, its places in a state and among the turned bodies. */
+static inline void pick_motion(const Window *w, size_t plane, size_t turned, CzMotion *motion) {
+    pick(w, offsetof(CzBlock, position) + plane, &motion->displacement, ROWS_OF_PLANE);
+    pick(w, offsetof(CzBlock, velocity) + plane, &motion->rate, ROWS_OF_PLANE);
+    pick(w, turned, &motion->turned, ROWS_OF_TURNED);
 }
 
 /* Reads the motion of the cars ahead along the track: all else of it remains as it is. */
 static void look_ahead_along(const Window *ahead, CzSeen *seen) {
-    Pair pair[4];
-    lay_row(ahead, offsetof(CzBlock, position.body.x), pair);
-    lay_row(ahead, offsetof(CzBlock, velocity.body.x), pair + 1);
-    lay_row(ahead, offsetof(CzBlock, position.end[0].x), pair + 2);
-    lay_row(ahead, offsetof(CzBlock, velocity.end[0].x), pair + 3);
-    pick(ahead, (const Pair *)pair, seen->body.displacement.x, 1);
-    pick(ahead, (const Pair *)pair + 1, seen->body.rate.x, 1);
-    pick(ahead, (const Pair *)pair + 2, seen->end.displacement.x, 1);
-    pick(ahead, (const Pair *)pair + 3, seen->end.rate.x, 1);
+    pick(ahead, offsetof(CzBlock, position.body.x), seen->body.displacement.x, 1);
+    pick(ahead, offsetof(CzBlock, velocity.body.x), seen->body.rate.x, 1);
+    pick(ahead, offsetof(CzBlock, position.end[0].x), seen->end.displacement.x, 1);
+    pick(ahead, offsetof(CzBlock, velocity.end[0].x), seen->end.rate.x, 1);
 }
 
 /* Reads position and velocity of the body and the rear end of the car ahead. */
@@ -94,22 +66,15 @@ static void look_ahead(const CzDynamics *dynamics, int index) {
         return;
     }
     d->has_looked = 1;
-    Pair pair[2 * ROWS_OF_MOTION];
-    lay_motion(&ahead, offsetof(CzState, body), offsetof(CzBlock, turned.body), pair);
-    lay_motion(&ahead, offsetof(CzState, end[0]), offsetof(CzBlock, turned.end[0]),
-               pair + ROWS_OF_MOTION);
-    pick(&ahead, (const Pair *)pair, &d->ahead, 2 * ROWS_OF_MOTION);
+    pick_motion(&ahead, offsetof(CzState, body), offsetof(CzBlock, turned.body), &d->ahead.body);
+    pick_motion(&ahead, offsetof(CzState, end[0]), offsetof(CzBlock, turned.end[0]), &d->ahead.end);
 }
 
 /* Forces along the track of the interfaces behind cars that move along it only. */
 static void take_over_along(const Window *behind, CzBlock *d) {
-    Pair pair[3];
-    lay_row(behind, offsetof(CzBlock, pushed.body.x), pair);
-    lay_row(behind, offsetof(CzBlock, pushed.end.x), pair + 1);
-    lay_row(behind, offsetof(CzBlock, pushed.section), pair + 2);
-    pick(behind, (const Pair *)pair, d->from_behind.x, 1);
-    pick(behind, (const Pair *)pair + 1, d->force.end[0].x, 1);
-    pick(behind, (const Pair *)pair + 2, d->published.section[0], 1);
+    pick(behind, offsetof(CzBlock, pushed.body.x), d->from_behind.x, 1);
+    pick(behind, offsetof(CzBlock, pushed.end.x), d->force.end[0].x, 1);
+    pick(behind, offsetof(CzBlock, pushed.section), d->published.section[0], 1);
 }
 
 /* Forces of the interfaces behind the cars: the sums of rear ends and their sections start with
@@ -121,11 +86,9 @@ static void take_over(const CzDynamics *dynamics, int index) {
         take_over_along(&behind, d);
         return;
     }
-    Pair pair[ROWS_PUSHED];
-    lay(&behind.low->pushed, &behind.high->pushed, pair, ROWS_PUSHED);
-    pick(&behind, (const Pair *)pair, &d->from_behind, ROWS_OF_PLANE);
-    pick(&behind, (const Pair *)pair + ROWS_OF_PLANE, &d->force.end[0], ROWS_OF_PLANE);
-    pick(&behind, (const Pair *)pair + 2 * ROWS_OF_PLANE, d->published.section[0], 1);
+    pick(&behind, offsetof(CzBlock, pushed.body), &d->from_behind, ROWS_OF_PLANE);
+    pick(&behind, offsetof(CzBlock, pushed.end), &d->force.end[0], ROWS_OF_PLANE);
+    pick(&behind, offsetof(CzBlock, pushed.section), d->published.section[0], 1);
 }
 
 /* Adds them to the bodies after all other forces, so that the sum does not depend on the grouping
@@ -137,10 +100,5 @@ static void push_bodies(CzPlane *restrict body, const CzPlane *restrict pushed) 
         body->pitch[i] += pushed->pitch[i];
     }
 }
-
-_Static_assert(offsetof(CzSeen, end) == ROWS_OF_MOTION * sizeof(CzRow) &&
-                   offsetof(CzMotion, turned) == 2 * ROWS_OF_PLANE * sizeof(CzRow) &&
-                   offsetof(CzPushed, end) == ROWS_OF_PLANE * sizeof(CzRow),
-               "messages are rows in this order");
 
 #endif

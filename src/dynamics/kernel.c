@@ -137,7 +137,7 @@ static void note_bogies(CzBlock *d, double step) {
     add_bogies(d->budget, &of, step);
 }
 
-/* Evaluates the cars of a block. */
+/* Evaluates the cars of a block, whose rails have been read. */
 static void evaluate_cars(const CzDynamics *dynamics, int index, double step) {
     CzBlock *d = &dynamics->block[index];
     for (int end = 0; end < 2; ++end)
@@ -150,7 +150,6 @@ static void evaluate_cars(const CzDynamics *dynamics, int index, double step) {
     for (int axle = 0; axle < 4; ++axle)
         axle_to_bogie(d, axle);
     const bool elastic = is_elastic(dynamics);
-    look_at_rails(dynamics, index);
     for (int axle = 0; axle < 4; ++axle) {
         if (elastic)
             press_on_elastic(d, axle);
@@ -191,8 +190,10 @@ static void all_interfaces(const CzDynamics *dynamics, double step) {
 }
 
 static void evaluate(CzDynamics *dynamics, double step) {
-    for (int i = 0; i < dynamics->n_block; ++i)
+    for (int i = 0; i < dynamics->n_block; ++i) {
+        look_at_rails(dynamics, i);
         begin_block(dynamics, &dynamics->block[i]);
+    }
     all_interfaces(dynamics, step);
     for (int i = 0; i < dynamics->n_block; ++i)
         end_block(dynamics, i, step);
@@ -216,7 +217,6 @@ static void advance_along(CzBlock *d, double step, int first) {
 /* State and impulse are each one piece of rows. */
 static void advance_block(const CzDynamics *dynamics, int index, double step, int first) {
     CzBlock *d = &dynamics->block[index];
-    advance_rails(dynamics, index);
     if (dynamics->lanes->has.full_cars)
         cz_two_step_advance(dynamics->n_state, step, first, d->position.body.x, d->velocity.body.x,
                             d->acceleration.body.x, d->last_acceleration.body.x);
@@ -227,14 +227,17 @@ static void advance_block(const CzDynamics *dynamics, int index, double step, in
 }
 
 static void advance(CzDynamics *dynamics, double step, int first) {
-    for (int i = 0; i < dynamics->n_block; ++i)
+    for (int i = 0; i < dynamics->n_block; ++i) {
         advance_block(dynamics, i, step, first);
+        advance_rails(dynamics, i);
+    }
 }
 
 /* Advances, evaluates and commits each block while it is in the cache. */
 static void whole_step(CzDynamics *dynamics, double step, int first, double time) {
     for (int i = 0; i < dynamics->n_block; ++i) {
         advance_block(dynamics, i, step, first);
+        move_rails(dynamics, i);
         begin_block(dynamics, &dynamics->block[i]);
     }
     all_interfaces(dynamics, step);

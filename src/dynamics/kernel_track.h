@@ -22,10 +22,9 @@ static void put_rail(CzRailRows *rail, size_t lane, CzRailPoint point) {
     rail->flexibility_slope[lane] = point.flexibility_slope;
 }
 
-/* Reads the rails under the wheels of a block at their present places. */
-static void look_at_modes(const CzTrackMotion *track, CzBlock *d, int block) {
+/* Turns of the wheels of a block at their present places, and the flexibility there. */
+static void turn_wheels(const CzTrackMotion *track, CzBlock *d, CzTrackTurns *turns) {
     _Alignas(64) CzRow place[4];
-    CzTrackTurns turns;
     for (int axle = 0; axle < 4; ++axle) {
         const double *restrict bogie_x = d->parameter.bogie_x, *restrict axle_x =
                                                                    d->parameter.axle_x;
@@ -34,10 +33,10 @@ static void look_at_modes(const CzTrackMotion *track, CzBlock *d, int block) {
             place[axle][i] = cz_wheel_place(bogie_x[i], axle_x[i], axle) + x[i];
         }
     }
-    cz_track_turn(track, (const CzRow *)place, &turns);
+    cz_track_turn(track, (const CzRow *)place, turns);
     for (int axle = 0; axle < 4; ++axle) {
         CzRailRows *rail = &d->rail[axle];
-        const double *restrict cosine = turns.seat_re[axle], *restrict sine = turns.seat_im[axle];
+        const double *restrict cosine = turns->seat_re[axle], *restrict sine = turns->seat_im[axle];
         CZ_LANES (i) {
             const CzRailPoint point = cz_track_on_spring(
                 track->flexibility.corner, track->flexibility.term, 1, track->per_spacing,
@@ -46,15 +45,26 @@ static void look_at_modes(const CzTrackMotion *track, CzBlock *d, int block) {
             rail->flexibility_slope[i] = point.flexibility_slope;
         }
     }
+}
+
+/* Reads the modes under the wheels of one car. */
+static void look_at_car(const CzTrackMotion *track, const CzTrackUnder *under,
+                        const CzTrackTurns *turns, CzBlock *d, int lane) {
+    for (int axle = 0; axle < 4; ++axle) {
+        const CzTrackDeflection look = cz_track_move_wheel(track, under, turns, lane, axle);
+        d->rail[axle].z[lane] = look.z;
+        d->rail[axle].slope[lane] = look.slope;
+    }
+}
+
+/* Reads the rails under the wheels of a block at their present places. */
+static void look_at_modes(const CzTrackMotion *track, CzBlock *d, int block) {
+    CzTrackTurns turns;
+    turn_wheels(track, d, &turns);
     for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
         const CzTrackUnder *under = &track->under[block * CZ_LANE_BLOCK + i];
-        if (under->state == NULL)
-            continue;
-        for (int axle = 0; axle < 4; ++axle) {
-            const CzTrackDeflection look = cz_track_move_wheel(track, under, &turns, i, axle);
-            d->rail[axle].z[i] = look.z;
-            d->rail[axle].slope[i] = look.slope;
-        }
+        if (under->state != NULL)
+            look_at_car(track, under, &turns, d, i);
     }
 }
 
@@ -118,14 +128,32 @@ static void press_rails(const CzBlock *d, size_t lane, double force[4]) {
         force[axle] = -d->published.wheel[axle].force[lane];
 }
 
-/* Advances the rails by one step under the forces of the last evaluation. */
+/* Advances the modes under one car by one step under the forces of the last evaluation. */
+static void advance_car(const CzTrackMotion *track, CzTrackUnder *under, CzBlock *d, size_t lane) {
+    press_rails(d, lane, under->force);
+    transfer_work(d, lane, cz_track_step(track, under, under->force));
+}
+
+/* The same for all cars of a block. */
 static void advance_modes(const CzTrackMotion *track, CzBlock *d, int block) {
     for (size_t i = 0; i < CZ_LANE_BLOCK; ++i) {
         CzTrackUnder *under = &track->under[(size_t)block * CZ_LANE_BLOCK + i];
+        if (under->state != NULL)
+            advance_car(track, under, d, i);
+    }
+}
+
+/* Advances them and reads them at the present places of the wheels, car by car, because the modes
+ * under all cars exceed the first cache. */
+static void move_modes(const CzTrackMotion *track, CzBlock *d, int block) {
+    CzTrackTurns turns;
+    turn_wheels(track, d, &turns);
+    for (int i = 0; i < CZ_LANE_BLOCK; ++i) {
+        CzTrackUnder *under = &track->under[block * CZ_LANE_BLOCK + i];
         if (under->state == NULL)
             continue;
-        press_rails(d, i, under->force);
-        transfer_work(d, i, cz_track_step(track, under, under->force));
+        advance_car(track, under, d, (size_t)i);
+        look_at_car(track, under, &turns, d, i);
     }
 }
 
@@ -238,6 +266,16 @@ static void advance_rails(const CzDynamics *dynamics, int block) {
         advance_elements(dynamics->elements, d, block);
     if (dynamics->receptance != NULL)
         advance_receptance(dynamics->receptance, d, block);
+}
+
+/* Advances the rails and reads them under the wheels, which have been advanced. */
+static void move_rails(const CzDynamics *dynamics, int block) {
+    if (dynamics->track != NULL) {
+        move_modes(dynamics->track, &dynamics->block[block], block);
+        return;
+    }
+    advance_rails(dynamics, block);
+    look_at_rails(dynamics, block);
 }
 
 /* Whether the rails deflect. */

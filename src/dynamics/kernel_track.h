@@ -186,22 +186,29 @@ static inline void advance_mode(CzComplex flight, CzComplex kick, CzComplex now,
     *sum_past += past.re * *re - past.im * *im;
 }
 
-/* The same for n modes in all lanes, which are on the same track. */
+/* The same for n modes in all lanes, which are on the same track; returns the sums of their
+ * deflections. Sums in rows of a function's own stay in registers. */
 static void advance_same(const CzPairStep *mode, int n, const double *restrict force, CzRow *state,
                          double *restrict now, double *restrict past) {
+    _Alignas(64) CzRow sum_now = {0.0}, sum_past = {0.0};
     for (int k = 0; k < n; ++k) {
         const CzPairStep m = mode[k];
         double *restrict re = state[2 * k], *restrict im = state[2 * k + 1];
         CZ_LANES (i) {
-            advance_mode(m.flight, m.kick, m.now, m.past, force[i], &re[i], &im[i], &now[i],
-                         &past[i]);
+            advance_mode(m.flight, m.kick, m.now, m.past, force[i], &re[i], &im[i], &sum_now[i],
+                         &sum_past[i]);
         }
+    }
+    CZ_LANES (i) {
+        now[i] = sum_now[i];
+        past[i] = sum_past[i];
     }
 }
 
 /* The same where the lanes are on several tracks. */
 static void advance_mixed(const CzPairStepRows *mode, int n, const double *restrict force,
                           CzRow *state, double *restrict now, double *restrict past) {
+    _Alignas(64) CzRow sum_now = {0.0}, sum_past = {0.0};
     for (int k = 0; k < n; ++k) {
         const CzPairStepRows *restrict m = &mode[k];
         double *restrict re = state[2 * k], *restrict im = state[2 * k + 1];
@@ -210,15 +217,19 @@ static void advance_mixed(const CzPairStepRows *mode, int n, const double *restr
                          (CzComplex){m->kick_re[i], m->kick_im[i]},
                          (CzComplex){m->now_re[i], m->now_im[i]},
                          (CzComplex){m->past_re[i], m->past_im[i]}, force[i], &re[i], &im[i],
-                         &now[i], &past[i]);
+                         &sum_now[i], &sum_past[i]);
         }
+    }
+    CZ_LANES (i) {
+        now[i] = sum_now[i];
+        past[i] = sum_past[i];
     }
 }
 
 /* Advances the modes under the bogies of a block by one step. */
 static void advance_bogie(CzReceptanceBlock *under, int bogie, const double *restrict rear,
                           const double *restrict front) {
-    _Alignas(64) CzRow now[CZ_N_PAIR_MOTION] = {{0.0}}, past[CZ_N_PAIR_MOTION] = {{0.0}};
+    _Alignas(64) CzRow now[CZ_N_PAIR_MOTION], past[CZ_N_PAIR_MOTION];
     _Alignas(64) CzRow force[CZ_N_PAIR_MOTION];
     CZ_LANES (i) {
         force[CZ_PAIR_BOUNCE][i] = -0.5 * (rear[i] + front[i]);

@@ -94,7 +94,7 @@ typedef struct CzCorridor {
     int n_inside;        /* of these within the corridor; all of them pass */
     int n_refused;       /* curves that no problem may have; they count as failing */
     long seed;
-    int n_random;        /* quasi-random curves of each width */
+    int n_random;        /* quasi-random curves in a widest corridor */
     int n_draw;          /* of the scatter; 0 when it was not sampled */
     const CzDraw *draw;  /* (n_draw) */
     const double *value; /* of the draws (n_random x n_draw) */
@@ -111,7 +111,7 @@ typedef struct CzCorridor {
 typedef struct CzCorridorOptions {
     const char *part;           /* name of the part, or a path such as
                                    trains.A.vehicles.A6.front.anti_climber */
-    int n_random;               /* quasi-random curves of each width; 0: the default */
+    int n_random;               /* quasi-random curves in a widest corridor; 0: the default */
     long seed;                  /* -1: that of the file, or 1 */
     bool has_scatter;           /* whether the scatter of the file is sampled */
     int n_job;                  /* threads; 0: one per processor */

@@ -14,7 +14,7 @@
 
 #define RESOLUTION 0.005 /* of the widths (ours) */
 #define WIDEST 0.5       /* (ours) */
-enum { USUAL_RANDOM = 16 /* quasi-random curves of each width (ours) */ };
+enum { USUAL_RANDOM = 16 /* quasi-random curves in a widest corridor (ours) */ };
 
 CzCorridorOptions cz_corridor_options_default(void) {
     return (CzCorridorOptions){.seed = -1, .has_scatter = true};

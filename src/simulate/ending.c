@@ -4,7 +4,7 @@
  * interface that can open carries a force, none stores more than CZ_STORED_SHARE of the initial
  * energy, no plastic element crushes, and every wheel is on the rail, all for one body pitch
  * period. A brief run also ends when nothing has crushed for that long, no cars can meet again at
- * more than MEETING_SHARE of the first closing speed, and no interface stores the energy for it.
+ * more than MEETING_SHARE of the first closing speed, and no interface stores more than that share.
  */
 #include "simulate/run.h"
 
@@ -363,11 +363,9 @@ static void look_at(CzBatch *batch, int design, bool finite) {
     progress->plastic = strokes;
     const bool off = wheels_are_off(batch, design);
     const CzLoadLeft left = cz_interface_loads_update(batch, design);
-    const double initial = progress->initial_energy;
     progress->awaited = awaited(batch, design, off, crushes, &left);
     const bool settled =
-        batch->brief && !off && !crushes &&
-        left.energy <= MEETING_SHARE * MEETING_SHARE * initial &&
+        batch->brief && !off && !crushes && !left.stores &&
         meeting_speed(batch, design) <= MEETING_SHARE * batch->design[design].closing_speed;
     progress->quiet_since =
         holds_since(progress->awaited == NULL, progress->quiet_since, batch->time);

@@ -90,7 +90,8 @@ static bool still_dissipates(const CzBatch *batch, int design) {
 
 CzLoadLeft cz_interface_loads_update(const CzBatch *batch, int design) {
     const double least = CZ_STORED_SHARE * batch->design[design].initial_energy;
-    CzLoadLeft left = {.energy = 0.0};
+    CzLoadLeft left = {.force = false};
+    double stored = 0.0; /* largest elastic energy of an interface */
     double oscillating = 0.0;
     bool rests = is_at_rest(batch, 0, design);
     for (int interface = 0; interface + 1 < batch->n_car; ++interface) {
@@ -105,12 +106,12 @@ CzLoadLeft cz_interface_loads_update(const CzBatch *batch, int design) {
         if (rests_behind && rests)
             continue;
         left.force |= opens && fabs(force) > SMALLEST_FORCE;
-        left.energy = fmax(left.energy, opens || unloads ? energy : 0.0);
+        stored = fmax(stored, opens || unloads ? energy : 0.0);
         if (!opens)
             oscillating = fmax(oscillating, energy + relative_energy(batch, interface, design));
     }
-    if (oscillating > fmax(least, left.energy) && still_dissipates(batch, design))
-        left.energy = oscillating;
-    left.stores = !(left.energy <= least); /* also for NaN */
+    if (oscillating > fmax(least, stored) && still_dissipates(batch, design))
+        stored = oscillating;
+    left.stores = !(stored <= least); /* also for NaN */
     return left;
 }

@@ -219,9 +219,8 @@ double cz_law_error(const CzBatch *batch, size_t lane);
 #define CZ_STORED_SHARE 1e-3 /* of the initial energy: less does not change the results (ours) */
 typedef struct CzInterfaceLoad CzInterfaceLoad;
 typedef struct CzLoadLeft {
-    bool force;    /* an interface that can open carries a force */
-    bool stores;   /* `energy` is more than CZ_STORED_SHARE */
-    double energy; /* largest elastic energy of an interface [J] */
+    bool force;  /* an interface that can open carries a force */
+    bool stores; /* an interface stores more elastic energy than CZ_STORED_SHARE */
 } CzLoadLeft;
 /* Whether the two sides can part. */
 bool cz_interface_can_open(const CzBatch *batch, int interface, int design);

@@ -192,11 +192,10 @@ static bool make_room(CzSearch *search, long n) {
     return true;
 }
 
-/* Whether a record improves the best one enough to continue the search. */
-static bool is_gain(const CzSearch *search, long record) {
-    if (search->best < 0)
+bool cz_search_is_gain(const CzSearch *search, long record, long other) {
+    if (other < 0)
         return true;
-    const CzRecord *a = &search->record[record], *b = &search->record[search->best];
+    const CzRecord *a = &search->record[record], *b = &search->record[other];
     if (a->is_barred != b->is_barred)
         return b->is_barred;
     if (b->penalty > 0)
@@ -219,7 +218,7 @@ static void add_record(CzSearch *search, const double *x, const CzRecord *given)
     if (isnan(written->objective))
         return;
     if (cz_search_is_better(search, record, search->best)) {
-        if (is_gain(search, record))
+        if (cz_search_is_gain(search, record, search->best))
             search->last_gain = search->n_record;
         search->best = record;
     }

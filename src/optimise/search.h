@@ -165,6 +165,9 @@ const double *cz_search_detail(const CzSearch *search, long record);
 /* The same for records of a search by number; a number below 0 is worse than any. */
 bool cz_search_is_better(const CzSearch *search, long record, long other);
 
+/* Whether it is better by enough to continue a search from there. */
+bool cz_search_is_gain(const CzSearch *search, long record, long other);
+
 /* Record with exactly these variables, -1 when there is none. */
 long cz_search_find(const CzSearch *search, const double *x);
 

@@ -1,8 +1,9 @@
 /* Moves from the best design to the best one with every variable on its catalogue increment.
  *
- * The response surface ranks the designs on the increments, and the best of them are simulated:
- * first the corners of the cell of increments around the best design, then designs that differ by
- * one increment, or by one in each of two variables, from the best design on the increments.
+ * First it dives: the planes are solved with one variable after the other on an increment. Then the
+ * planes rank designs on the increments, and the best of them are simulated: the corners of the
+ * cell of increments around the best design, and designs that differ by one increment, or by one in
+ * each of two variables, from the best design on the increments.
  */
 #include "optimise/strategy.h"
 
@@ -207,7 +208,7 @@ static void snap(CzSurface *surface, Shortlist *list, long limit, double *scratc
     int n_idle = 0;
     memcpy(scratch, cz_search_x(search, search->best), (size_t)n * sizeof *scratch);
     offer_corners(list, scratch, scratch + n, scratch + 2 * n);
-    search->is_snapped = list->n_design == 0; /* all corners are known */
+    search->is_snapped |= list->n_design == 0; /* all corners are known */
     explore(list, scratch + n, scratch, scratch + 2 * n);
     while (simulate(surface, list, limit - search->n_record)) {
         search->is_snapped = true;
@@ -230,6 +231,7 @@ typedef struct Dive {
     double *u, *x;   /* solution, scaled and natural (n) */
     double *other;   /* scratch (n) */
     double *reserve; /* distance of details below 0 (m) */
+    double reach;    /* from the base in each variable, or one increment where that is more */
     bool *is_fixed;  /* (n) */
 } Dive;
 
@@ -281,7 +283,7 @@ static bool dive_once(const CzSurface *surface, Dive *dive) {
     const int n = surface->n;
     for (int i = 0; i < n; i++) {
         const double step = function->step[i] / (function->max[i] - function->min[i]);
-        const double reach = surface->is_frozen[i] ? 0 : fmax(farthest, 1.01 * step);
+        const double reach = surface->is_frozen[i] ? 0 : fmax(dive->reach, 1.01 * step);
         dive->lo[i] = fmax(surface->u[i] - reach, 0);
         dive->hi[i] = fmin(surface->u[i] + reach, 1);
         dive->is_fixed[i] = false;
@@ -310,8 +312,9 @@ static bool dive_once(const CzSurface *surface, Dive *dive) {
     return true;
 }
 
-/* Dives again and again. What a simulated design violates, the next one keeps with a reserve of
- * that size more; where a design passes, the reserves are halved. */
+/* Dives again and again, on planes that each simulated design corrects; when it is the best one, it
+ * becomes their base, else the next box is half as large. What a design violates, the next one
+ * keeps with a reserve of that size more; where a design passes, the reserves are halved. */
 static void dive(CzSurface *surface, long limit) {
     enum { MAX_DIVES = 12, MAX_IDLE_DIVES = 5 };
     CzSearch *search = surface->search;
@@ -323,6 +326,7 @@ static void dive(CzSurface *surface, long limit) {
                  .x = cz_arena_numbers(&arena, n),
                  .other = cz_arena_numbers(&arena, n),
                  .reserve = cz_arena_numbers(&arena, m),
+                 .reach = farthest,
                  .is_fixed = cz_arena_allocate(&arena, n, sizeof(bool))};
     int n_idle = 0;
     if (arena.out_of_memory)
@@ -334,7 +338,8 @@ static void dive(CzSurface *surface, long limit) {
         long record = cz_search_find(search, dive.x);
         memcpy(surface->x, dive.x, n * sizeof *dive.x);
         if (record < 0) {
-            if (!cz_surface_probe(surface, "snap"))
+            int moved_to;
+            if (!cz_surface_try_exact(surface, "snap", 1, &moved_to))
                 break;
             record = search->n_record - 1;
         } else { /* its details are not known any more */
@@ -342,6 +347,8 @@ static void dive(CzSurface *surface, long limit) {
         }
         search->is_snapped = true;
         n_idle = search->best_on_grid != before ? 0 : n_idle + 1;
+        if (n_idle > 0)
+            dive.reach /= 2;
         const bool is_kept = search->record[record].penalty <= 0;
         for (size_t j = 0; j < m; j++) {
             const double c = surface->many_d[j];
@@ -364,6 +371,22 @@ static bool begin(CzSurface *surface, const double *u, long evaluations) {
     return true;
 }
 
+/* Dives from the best design on the increments, as long as it passes, with new slopes around it
+ * each time: while it is an improvement of design `base` (-1: of none), around which the slopes
+ * are, and evaluations for more than slopes are left. `u` is scratch (n_variable). */
+static void dive_from_best(CzSurface *surface, long base, long limit, double *u) {
+    CzSearch *search = surface->search;
+    for (long at; (at = search->best_on_grid) >= 0 && search->record[at].penalty <= 0 &&
+                  cz_search_is_gain(search, at, base);
+         base = at) {
+        const long left = limit - search->n_record;
+        cz_search_scale(search, cz_search_x(search, at), u);
+        if (left <= surface->n + 3 || !begin(surface, u, left))
+            return;
+        dive(surface, limit);
+    }
+}
+
 void cz_snap(CzSurface *surface, long evaluations, bool is_last) {
     CzSearch *search = surface->search;
     if (!cz_search_has_steps(search) || search->best < 0)
@@ -384,8 +407,10 @@ void cz_snap(CzSurface *surface, long evaluations, bool is_last) {
     /* the last time the slopes are those of the best design, before that those of a near one */
     const bool is_at_best =
         surface->record >= 0 && (is_last ? surface->record == search->best : is_near(surface, u));
+    const long base = is_at_best ? surface->record : search->best;
     if (is_at_best || begin(surface, u, evaluations)) {
         dive(surface, limit);
+        dive_from_best(surface, search->record[base].on_grid ? base : -1, limit, u);
         const long few = search->n_record + BATCH;
         snap(surface, &list, is_last || few > limit ? limit : few, memory + (BATCH + 1) * n);
     }

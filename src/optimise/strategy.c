@@ -221,8 +221,7 @@ static long n_screen_of(const CzSearch *search, long left) {
 
 /* The design from which the next descent begins: the start, or the best one where margins are held,
  * then the best one that is distant from the earlier descents, after more points; -1 when there is
- * none. The last evaluations, too few for
- * a new descent, go to the best design. */
+ * none. The last evaluations, too few for a new descent, go to the best design. */
 static long next_start(const CzSurface *surface, unsigned long seed, int start, long left,
                        Visited *visited) {
     CzSearch *search = surface->search;
@@ -294,7 +293,7 @@ static void descend_from(CzSurface *surface, long record, long evaluations, Visi
 
 /* Descends from the start, then from the best of further points that fill the box, as long as
  * evaluations are left and some of the latest descents improved the best design, which each time is
- * moved to the catalogue increments. */
+ * moved to the catalogue increments. Then the last evaluations are left to `cz_snap`. */
 static void search_basins(CzSurface *surface, unsigned long seed, Visited *visited) {
     CzSearch *search = surface->search;
     const long reserve = cz_search_has_steps(search) ? surface->n / 2 + 8 : 0;
@@ -306,7 +305,10 @@ static void search_basins(CzSurface *surface, unsigned long seed, Visited *visit
                                        : next_start(surface, seed, start,
                                                     cz_search_left(search) - reserve, visited);
         const long left = cz_search_left(search) - reserve;
-        if (left < surface->n + 2)
+        const bool is_for_increments = start > 0 && record == search->best && record >= 0 &&
+                                       cz_search_has_steps(search) &&
+                                       search->record[record].penalty <= 0;
+        if (left < surface->n + 2 || is_for_increments)
             break;
         if (record >= 0 && !has_hopped)
             descend_from(surface, start == 0 && surface->n_held == 0 ? -1 : record, left, visited);

@@ -310,6 +310,10 @@ static bool is_worth(const Step *step, double smallest_radius) {
 
 static const double first_weight = 1;
 
+/* Secant steps of a descent, as shares of the range of a variable (ours). With catalogue increments
+ * the designs that count lie farther apart. */
+static const double usual_secant = 0.02, secant_of_steps = 0.05;
+
 /* Boxes do not become smaller: a share of an increment is of no use. */
 static double smallest_box(const CzSearch *search) {
     const CzFunction *function = search->function;
@@ -394,7 +398,7 @@ void cz_surface_descend(CzSurface *surface, const char *phase, const double *x, 
     const double least_progress = !cz_search_has_steps(search)   ? 1e-3
                                   : search->function->is_minimax ? 5e-3
                                                                  : 2e-2;
-    const double secant = 0.02;
+    const double secant = cz_search_has_steps(search) ? secant_of_steps : usual_secant;
     Step listed[MAX_STEPS];
     double *next = cz_search_numbers(search, MAX_STEPS * (size_t)n);
     if (next == NULL || evaluations < n + 2 || !begin_descent(surface, phase, x, secant)) {

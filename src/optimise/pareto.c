@@ -3,10 +3,11 @@
  *   minimise a(x)   subject to all checks and b(x) <= bound_k
  *   bound_k = b_first + k / (n - 1) (b_last - b_first)
  *
- * where b_first belongs to the design with the least a, b_last is the least b. The order is from
- * strict to loose bounds, so that every search begins at a design that satisfies its bound; points
- * that do not improve are searched again from the other side. Of the smallest margin, b is its
- * negative: a margin is then required of every constraint.
+ * where b_first belongs to the design with the least a, b_last is the least b. Of designs as good
+ * as an end, the one with the least of the other objective is searched. The order is from strict to
+ * loose bounds, so that every search begins at a design that satisfies its bound; points that do
+ * not improve are searched again from the other side. Of the smallest margin, b is its negative: a
+ * margin is then required of every constraint.
  */
 #include "crushzone/pareto.h"
 #include "base/arena.h"
@@ -267,6 +268,41 @@ static CzStatus search_ends(Front *front, CzError *error) {
     return front->pareto->is_interrupted ? CZ_OK : search_end(front, strict, error);
 }
 
+/* Whether both ends have designs that pass, and one has less of the bounded objective. */
+static bool ends_conflict(const Front *front) {
+    const CzPareto *pareto = front->pareto;
+    const CzParetoPoint *first = &pareto->point[0], *last = &pareto->point[pareto->n_point - 1];
+    const int bounded = front->order[1];
+    return cz_pareto_is_feasible(first) && cz_pareto_is_feasible(last) &&
+           first->value[bounded] != last->value[bounded];
+}
+
+/* Searches the least of the other objective among designs as good as an end: often many are. */
+static CzStatus improve_end(Front *front, int objective, CzError *error) {
+    const CzParetoOptions *options = front->options;
+    const double slack = 1e-3; /* of the objective, or of a margin (ours) */
+    const int number = end_of(front, objective);
+    CzParetoPoint *end = &front->pareto->point[number], trial = blank;
+    const bool is_required = is_margin(options->minimise[objective]);
+    const double value = end->value[objective];
+    if (options->begins != NULL)
+        options->begins(number, front->pareto->n_point, options->begins_data);
+    trial.bound = is_required ? value - slack : value + slack * fabs(value);
+    CZ_TRY(search_once(front, 1 - objective, end->x, &trial, error));
+    trial.bound = end->bound;
+    trial.n_evaluation += end->n_evaluation;
+    if (is_preferred(front, 1 - objective, &trial, end))
+        *end = trial;
+    end->n_evaluation = trial.n_evaluation;
+    return CZ_OK;
+}
+
+static CzStatus improve_ends(Front *front, CzError *error) {
+    for (int k = 0; k < 2 && ends_conflict(front) && !front->pareto->is_interrupted; k++)
+        CZ_TRY(improve_end(front, front->order[k], error));
+    return CZ_OK;
+}
+
 static bool dominates(const Front *front, int one, int other) {
     const int strict = end_of(front, front->order[1]);
     bool is_better = abs(one - strict) < abs(other - strict); /* of equal points the strictest */
@@ -346,6 +382,7 @@ static CzStatus search_between(Front *front, CzError *error) {
 
 static CzStatus search_all(Front *front, CzError *error) {
     CZ_TRY(search_ends(front, error));
+    CZ_TRY(improve_ends(front, error));
     if (!front->pareto->is_interrupted)
         CZ_TRY(search_between(front, error));
     mark_dominated(front);

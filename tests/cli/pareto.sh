@@ -8,8 +8,8 @@ column() { # column NAME FILE: of a CSV file without quotes in its first columns
 }
 front() { exits 0 "$C" pareto "$file" --minimise $length --minimise $force -n 5 -o front -q && says out.txt '5 of 5 points are on the front' && [ "$(column state front/pareto.csv | sort -u)" = verified ]; }
 check "a front has its points, all of them verified" front
-hyperbola() { # the tubes dissipate the same energy in each point, but for increments of 5 of at least 120 mm and 450 kN
-    awk -F, 'NR > 1 { product = $1 * $2 / 1000; if (product < 430 || product > 460) { print; bad = 1 } n++ } END { exit bad || n != 5 }' front/pareto.csv
+hyperbola() { # the tubes dissipate the same energy in each point, but for increments of 5 of at least 120 mm and 450 kN; at 1500 kN, 22 of the 309 kJ are elastic (F^2/2k on both sides)
+    awk -F, 'NR > 1 { product = $1 * $2 / 1000; if (product < 420 || product > 460) { print; bad = 1 } n++ } END { exit bad || n != 5 }' front/pareto.csv
 }
 check "force times length is constant where tubes dissipate the energy" hyperbola
 bounds() { # the limits are evenly spaced, and every point satisfies its own

@@ -33,7 +33,7 @@ schema: 1
 extends: $SOURCE/problems/two-cars-25kmh.yaml
 optimise:
   variables: [{path: "parts.anti-climber.stages[0].stroke_mm", min: 300, max: 450, increment: 50}]
-  evaluations: 4
+  evaluations: 8
 END
 longer() {
     "$C" optimise longer.yaml -o longer >/dev/null 2>&1 || true
